@@ -1,11 +1,8 @@
 """One connection of a client: counted from its first byte, read no faster than it may speak."""
 
 import asyncio
-import socket
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
 import viser
@@ -15,29 +12,14 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
 from modeviz.viewer.page.decoding import LARGEST_MESSAGE, MessageError, TooMuchError, checked
-from modeviz.viewer.page.forwarded import NO_PROXIES, Proxies
-from modeviz.viewer.page.limits import Allowance, Places, client_of, most_connections
-from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.house import House
+from modeviz.viewer.page.limits import Places, client_of
+from modeviz.viewer.page.pace import HurryError, Pace
+from modeviz.viewer.page.slow_readers import ReadingWatch, hold_little
 from modeviz.viewer.page.turns import MOST_WAITING, Turns, page_heard
-
-MOST_OF_ONE = 200
-"""Connections of one client: a browser opens six for a page, and colleagues may share a proxy."""
-
-MOST_PAGES, MOST_PAGES_OF_ONE = 100, 60
-
-OPENINGS_PER_S, MOST_OPENINGS = 5.0, 20.0
-"""Pages that are sent the whole scene."""
 
 LONGEST_WAIT = 8.0
 """s for a place among them, before a client would give up."""
-
-MESSAGES_PER_S, MOST_MESSAGES = 100.0, 300.0
-"""A page sends at most 20 a second for a widget and 50 for its camera."""
-
-BYTES_PER_S, MOST_BYTES = 1e6, 8e6
-
-LONGEST_HURRY = 20.0
-"""s that a page may say more than it is heard."""
 
 MOST_WRONG = 100
 """Messages that no page sends, after which one is closed."""
@@ -48,31 +30,8 @@ CLOSING_S = 2.0
 SILENT = 30.0
 """s: a page tells of its camera as soon as it is connected."""
 
-READS_WITHIN = 15.0
-"""s that may pass until a page reads on."""
-
-MOST_UNSENT = 65536
-"""Bytes that the system keeps to send."""
-
-SLOWEST = 1000.0
-"""Bytes a second that a page must read then; what is newer replaces what waits for it meanwhile."""
-
 SOON = 0.02
 """s between two looks whether a page has less to do."""
-
-
-@dataclass
-class House:
-    """The limits that the connections to an address share, whichever session they are of."""
-
-    notices: Notices
-    proxies: Proxies = NO_PROXIES
-    """Whose connections are those of many clients."""
-    arrivals: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
-    """Of connections that have not said yet what they want."""
-    connections: Places = field(default_factory=lambda: Places(most_connections(), MOST_OF_ONE))
-    pages: Places = field(default_factory=lambda: Places(MOST_PAGES, MOST_PAGES_OF_ONE))
-    openings: Allowance = field(default_factory=lambda: Allowance(OPENINGS_PER_S, MOST_OPENINGS))
 
 
 class PageConnection(ServerConnection):
@@ -91,15 +50,10 @@ class PageConnection(ServerConnection):
         self.visitor: str = ""
         """Who looks at the page, see `Visitors`; "" before that is known."""
         self._places: list[Places] = []
-        self._messages = Allowance(MESSAGES_PER_S, MOST_MESSAGES)
-        self._bytes = Allowance(BYTES_PER_S, MOST_BYTES)
-        self._n_expected = 0
-        """Bytes of files that may come beyond the fair number."""
-        self._hurried_since: float | None = None
+        self._pace = Pace()
+        self._reading = ReadingWatch(self._end_slow)
         self._n_wrong = 0
         self._is_heard = self._is_ending = False
-        self._is_asked = False
-        self._looking: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begins a connection, or ends it where there is no place for it."""
@@ -107,7 +61,7 @@ class PageConnection(ServerConnection):
         self.client = client_of(peer[0]) if peer else "a client"
         is_proxy = peer is not None and self._house.proxies.trusts(peer[0])
         if self._take(self._house.connections, is_one=not is_proxy):
-            _hold_little(transport)
+            hold_little(transport)
             super().connection_made(transport)
         else:
             self._note("opened more connections than it may: the last are refused")
@@ -124,33 +78,16 @@ class PageConnection(ServerConnection):
     def pause_writing(self) -> None:
         """Waits with what is to be sent, but not for ever for somebody who does not read it."""
         super().pause_writing()
-        self._look_later()
+        self._reading.begin(self.transport)
 
     def resume_writing(self) -> None:
         """Goes on: so much has been read."""
         super().resume_writing()
-        self._stop_looking()
-
-    def _look_later(self) -> None:
-        n_bytes = self.transport.get_write_buffer_size()
-        self._looking = self.loop.call_later(READS_WITHIN, self._end_if_behind, n_bytes)
-
-    def _stop_looking(self) -> None:
-        if self._looking is not None:
-            self._looking.cancel()
-
-    def _end_if_behind(self, n_before: int) -> None:
-        """Ends a page that has hardly read: it would hold up what is for it alone, and comes again."""
-        n_read = n_before - self.transport.get_write_buffer_size()
-        if n_read < READS_WITHIN * SLOWEST:
-            self._note("reads too slowly: its page is closed, and comes again by itself")
-            self.transport.abort()
-        else:
-            self._look_later()
+        self._reading.end()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Gives its places back."""
-        self._stop_looking()
+        self._reading.end()
         if self._places:
             super().connection_lost(exc)
         for places in self._places:
@@ -190,12 +127,12 @@ class PageConnection(ServerConnection):
 
     def ask(self, n_bytes: int | None) -> None:
         """Lets the page send messages that are as large as what it is asked for, or no longer."""
-        self._is_asked = n_bytes is not None
+        self._pace.is_asked = n_bytes is not None
         self.protocol.max_message_size = max(n_bytes or 0, LARGEST_MESSAGE)
 
     def expect(self, n_bytes: int) -> None:
         """Lets the page send so much more: a file of which it told, and which is taken."""
-        self._n_expected += n_bytes
+        self._pace.expect(n_bytes)
 
     async def wait_to_open(self) -> bool:
         """Waits until another page may be sent all there is; whether that is soon enough."""
@@ -244,17 +181,10 @@ class PageConnection(ServerConnection):
 
     async def _turn(self, n_bytes: int) -> None:
         """Waits until this page may be heard, as it has said so much."""
-        expected = min(n_bytes, self._n_expected)
-        self._n_expected -= expected
-        if not self._is_asked and self._bytes.take(n_bytes - expected):
-            await self._end(f"sent more than {MOST_BYTES / 1e6:.0f} MB at once")
-        wait = self._messages.take()
-        if self._messages.is_plenty:
-            self._hurried_since = None
-        elif self._hurried_since is None:
-            self._hurried_since = time.monotonic()
-        elif wait and time.monotonic() - self._hurried_since > LONGEST_HURRY:
-            await self._end(f"sent more than {MESSAGES_PER_S:.0f} messages a second")
+        try:
+            wait = self._pace.take(n_bytes)
+        except HurryError as hurry:
+            await self._end(str(hurry))
         await asyncio.sleep(wait)
         while self._turns and self._turns.n_waiting(self) > MOST_WAITING:
             await asyncio.sleep(SOON)
@@ -264,6 +194,11 @@ class PageConnection(ServerConnection):
         self._note(f"{why}: its page is closed")
         await self.close(CloseCode.POLICY_VIOLATION, f"This page {why}.")
         raise self.protocol.close_exc
+
+    def _end_slow(self) -> None:
+        """Ends a page that hardly reads; it comes again."""
+        self._note("reads too slowly: its page is closed, and comes again by itself")
+        self.transport.abort()
 
     def _note(self, what: str) -> None:
         self._house.notices.note(self.client, what)
@@ -275,17 +210,10 @@ class PageConnection(ServerConnection):
         return True
 
 
-def _hold_little(transport: asyncio.BaseTransport) -> None:
-    """Has the system keep little of what is not sent yet: here it is replaced by what is newer."""
-    connection = transport.get_extra_info("socket")
-    if connection is not None and hasattr(socket, "TCP_NOTSENT_LOWAT"):
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NOTSENT_LOWAT, MOST_UNSENT)
-
-
 @contextmanager
 def asked(client: viser.ClientHandle, n_bytes: int) -> Iterator[None]:
     """While this lasts, a page may send as much at once as what it is asked for."""
-    connection = _connection(client._viser_server, client.client_id)
+    connection = connection_of(client._viser_server, client.client_id)
     if connection is None:
         yield
         return
@@ -298,11 +226,12 @@ def asked(client: viser.ClientHandle, n_bytes: int) -> Iterator[None]:
 
 def expect(server: viser.ViserServer, client_id: ClientId, n_bytes: int) -> None:
     """Lets a page send a file of so many bytes beyond what it may send otherwise."""
-    connection = _connection(server, client_id)
+    connection = connection_of(server, client_id)
     if connection is not None:
         connection.expect(n_bytes)
 
 
-def _connection(server: viser.ViserServer, client_id: int) -> PageConnection | None:
-    connection = server._websock_server._live_connections.get(client_id)
+def connection_of(server: viser.ViserServer, client_id: int) -> PageConnection | None:
+    """Return the connection of a page; None if it has left, or is none of ours."""
+    connection = server._websock_server._live_connections.get(ClientId(client_id))
     return connection if isinstance(connection, PageConnection) else None

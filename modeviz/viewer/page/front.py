@@ -14,8 +14,9 @@ from websockets.http11 import Request, Response
 from modeviz.errors import ModevizError
 from modeviz.viewer.page.acceptor import Acceptor
 from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import House, PageConnection
+from modeviz.viewer.page.connection import PageConnection
 from modeviz.viewer.page.handshake import Door
+from modeviz.viewer.page.house import House
 from modeviz.viewer.page.limits import client_of
 from modeviz.viewer.page.links import link, local_link
 from modeviz.viewer.page.listening import listening_socket

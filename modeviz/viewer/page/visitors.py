@@ -19,7 +19,7 @@ from websockets.frames import CloseCode
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.acquaintances import Acquaintances, Visitor
-from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.connection import PageConnection, connection_of
 from modeviz.viewer.page.introductions import introduction, is_review, person_name
 from modeviz.viewer.page.turns import page_heard
 from modeviz.viewer.session.author import OWNER, Author
@@ -208,7 +208,7 @@ class Visitors:
 
     async def _enter(self, page: WebsockClientConnection) -> None:
         """Notes who has opened a page, before it is sent anything; sends away who may not look."""
-        connection = self._connection(page.client_id)
+        connection = connection_of(self._server, page.client_id)
         if connection is None or connection.request is None:
             return
         said = introduction(connection.request)
@@ -247,16 +247,12 @@ class Visitors:
 
     def _put_out(self, page: int) -> None:
         """Says goodbye to a page, and closes it a moment later."""
-        connection, client = self._connection(page), self._server.get_clients().get(page)
+        connection, client = connection_of(self._server, page), self._server.get_clients().get(page)
         if client is not None:
             client.add_notification("Goodbye", f"{sentence_case(ENDED)}.", color="orange")
             client.flush()
         if connection is not None:
             self._server.get_event_loop().call_soon_threadsafe(_close_soon, connection)
-
-    def _connection(self, client_id: int) -> PageConnection | None:
-        connection = self._server._websock_server._live_connections.get(client_id)
-        return connection if isinstance(connection, PageConnection) else None
 
     def _tell(self) -> None:
         for listener in self._listeners:

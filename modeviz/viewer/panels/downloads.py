@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import viser
 
-from modeviz.viewer.page.connection import MOST_PAGES
+from modeviz.viewer.page.house import MOST_PAGES
 from modeviz.viewer.page.limits import Places
 from modeviz.viewer.page.server import Server
 from modeviz.viewer.tasks.page_jobs import Progress, run, turn

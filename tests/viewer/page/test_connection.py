@@ -23,9 +23,11 @@ from visitors import (
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.frames import Frame, Opcode
 
-from modeviz.viewer.page import connection, front, guesses
-from modeviz.viewer.page.connection import MOST_BYTES, MOST_PAGES_OF_ONE, MOST_WRONG
+from modeviz.viewer.page import connection, front, guesses, house, pace
+from modeviz.viewer.page.connection import MOST_WRONG
 from modeviz.viewer.page.decoding import PART
+from modeviz.viewer.page.house import MOST_PAGES_OF_ONE
+from modeviz.viewer.page.pace import MOST_BYTES
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.page.uploads import take_files_of
 
@@ -144,7 +146,7 @@ def test_a_page_that_sends_nothing_but_nonsense_is_closed(server, capfd):
 
 def test_a_page_that_sends_megabytes_in_small_messages_is_closed(server, capfd, monkeypatch):
     """Each is answered before the next: whoever writes to a closed door may not hear why it is."""
-    monkeypatch.setattr(connection, "BYTES_PER_S", 1.0)
+    monkeypatch.setattr(pace, "BYTES_PER_S", 1.0)
     with page(server) as socket:
         with suppress(ConnectionClosed):
             for _ in range(int(MOST_BYTES // PART) + 2):
@@ -155,7 +157,7 @@ def test_a_page_that_sends_megabytes_in_small_messages_is_closed(server, capfd, 
 
 
 def test_a_page_may_send_a_file_that_is_taken_however_large(server, monkeypatch):
-    monkeypatch.setattr(connection, "BYTES_PER_S", 1.0)
+    monkeypatch.setattr(pace, "BYTES_PER_S", 1.0)
     button = server.gui.add_upload_button("file")
     size = int(2 * MOST_BYTES)
     take_files_of(button, size)
@@ -173,7 +175,7 @@ def test_a_page_may_send_a_file_that_is_taken_however_large(server, monkeypatch)
 
 
 def test_a_page_that_hurries_on_and_on_is_closed(server, slider, monkeypatch):
-    monkeypatch.setattr(connection, "LONGEST_HURRY", 0.5)
+    monkeypatch.setattr(pace, "LONGEST_HURRY", 0.5)
     with page(server) as socket:
         with suppress(ConnectionClosed):
             for i in range(2000):
@@ -199,7 +201,7 @@ def test_a_request_that_does_not_end_is_given_up(monkeypatch, begin):
 
 
 def test_pages_of_one_client_are_bounded_and_make_place_when_they_close(monkeypatch, capfd):
-    monkeypatch.setattr(connection, "OPENINGS_PER_S", 1000.0)
+    monkeypatch.setattr(house, "OPENINGS_PER_S", 1000.0)
     with opened() as server, ExitStack() as pages:
         first = pages.enter_context(visit(server))
         for _ in range(MOST_PAGES_OF_ONE - 1):
@@ -217,7 +219,7 @@ def test_pages_of_one_client_are_bounded_and_make_place_when_they_close(monkeypa
 
 
 def test_connections_of_one_client_are_bounded(monkeypatch, capfd):
-    monkeypatch.setattr(connection, "MOST_OF_ONE", 5)
+    monkeypatch.setattr(house, "MOST_OF_ONE", 5)
     with opened() as server, ExitStack() as silent:
         for _ in range(5):
             silent.enter_context(reach(server))

@@ -4,8 +4,8 @@ import pytest
 from visitors import TOKEN, get, knock, wait_until
 from websockets.exceptions import InvalidStatus
 
-from modeviz.viewer.page.connection import MOST_PAGES_OF_ONE
 from modeviz.viewer.page.guesses import MOST_GUESSES
+from modeviz.viewer.page.house import MOST_PAGES_OF_ONE
 from modeviz.viewer.page.limits import Places
 from modeviz.viewer.page.server import open_server
 from modeviz.viewer.page.surroundings import surroundings

@@ -17,8 +17,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.connection import MOST_OPENINGS
 from modeviz.viewer.page.handshake import WHY
+from modeviz.viewer.page.house import MOST_OPENINGS
 from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.server import open_server

@@ -10,13 +10,13 @@ import pytest
 from visitors import CAMERA, encoded, visit, wait_until
 
 from benchmarks.slow_page import slow_page
-from modeviz.viewer.page import connection
+from modeviz.viewer.page import slow_readers
 from modeviz.viewer.page.server import open_server
 
 
 @pytest.fixture
 def server(monkeypatch):
-    monkeypatch.setattr(connection, "READS_WITHIN", 1.0)
+    monkeypatch.setattr(slow_readers, "READS_WITHIN", 1.0)
     server = open_server(port=0)
     yield server
     server.stop()
@@ -71,7 +71,7 @@ def test_a_page_that_reads_ten_bytes_a_second_is_closed(server, talking):
 
 def test_a_page_on_a_slow_line_stays(server, monkeypatch, talking):
     """What it reads in a second is little, and more than the least."""
-    monkeypatch.setattr(connection, "SLOWEST", 4e3)  # a twentieth of what is read on an idle machine
+    monkeypatch.setattr(slow_readers, "SLOWEST", 4e3)  # a twentieth of what is read on an idle machine
     with slow_page(server.get_port()) as page:
         wait_until(lambda: live(server))
         end = time.monotonic() + 4
@@ -82,7 +82,7 @@ def test_a_page_on_a_slow_line_stays(server, monkeypatch, talking):
 
 
 def test_what_waits_for_a_page_that_does_not_read_does_not_grow(server, talking, monkeypatch):
-    monkeypatch.setattr(connection, "READS_WITHIN", 60.0)
+    monkeypatch.setattr(slow_readers, "READS_WITHIN", 60.0)
     with slow_page(server.get_port()):
         wait_until(lambda: any(each.transport.get_write_buffer_size() for each in live(server)))
         buffer = server._websock_server._broadcast_buffer
