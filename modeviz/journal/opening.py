@@ -124,7 +124,7 @@ def _check_sound(path: Path) -> bool:
         finally:
             connection.close()
     except sqlite3.Error as error:
-        raise ModevizError(_damaged(path, str(error))) from None
+        raise ModevizError(damaged(path, str(error))) from None
 
 
 def _is_study(connection: Connection, path: Path) -> bool:
@@ -134,18 +134,19 @@ def _is_study(connection: Connection, path: Path) -> bool:
         for what in ("application_id", "user_version", "quick_check(1)")
     )
     if found != "ok":
-        raise ModevizError(_damaged(path, str(found)))
+        raise ModevizError(damaged(path, str(found)))
     if application == APPLICATION_ID:
         _check_version(path, application, version)
         if table := wrong_table(connection):
-            raise ModevizError(_damaged(path, f"table {table} is not one of a study"))
+            raise ModevizError(damaged(path, f"table {table} is not one of a study"))
         return True
     if connection.execute("SELECT 1 FROM sqlite_master").fetchone():
         raise ModevizError(f"{path}: is a database, but no study of modeviz; it is left as it is")
     return False
 
 
-def _damaged(path: Path, words: str) -> str:
+def damaged(path: Path, words: str) -> str:
+    """Return the sentence that refuses a file in which something is wrong."""
     first = " ".join(words.split())[:120]
     return (
         f"{path}: is damaged ({first}): put a backup in its place, or give another file; it is left as "

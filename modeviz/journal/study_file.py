@@ -170,7 +170,12 @@ class StudyFile(Records):
         A note whose token is there already takes its place.
         """
         written = replace(note, token=note.token or new_token(), time=time.time())
-        self._writer.put(lambda c: remarks.write_note(c, _number(c, session), written), session or "")
+        self._writer.put(
+            lambda c: remarks.write_note(c, _number(c, session), written),
+            session or "",
+            what="note",
+            n_bytes=len(note.text),
+        )
         return written.token
 
     def remove_note(self, session: SessionId | None, token: str) -> None:

@@ -19,6 +19,7 @@ from modeviz.cli import main
 from modeviz.cli.studies.kept import kept_study
 from modeviz.errors import ModevizError
 from modeviz.files.state_folder import state_folder
+from modeviz.journal import opening
 from modeviz.journal.comparison import compare_studies, difference_text
 from modeviz.journal.contents import put_text
 from modeviz.journal.export import study_record, variants_table
@@ -307,3 +308,25 @@ def test_a_server_says_that_it_brought_a_study_up_to_date(tmp_path, capsys):
     with kept_study(path, mounted_cabin()):
         pass
     assert "earlier" not in capsys.readouterr().err
+
+
+def test_a_command_looks_once_whether_the_tables_are_whole(study, capsys, monkeypatch):
+    looked, sound = [], opening._check_sound
+    monkeypatch.setattr(opening, "_check_sound", lambda path: looked.append(path) or sound(path))
+    for words in (["log", study], ["export", study, study.with_suffix(".json")]):
+        printed(capsys, *words)
+        assert len(looked) == 1
+        looked.clear()
+
+
+def test_a_check_says_that_all_is_as_it_was_written_or_what_is_not(study, capsys):
+    assert "truck.modeviz: sound, all " in printed(capsys, "check", study)
+    connection = sqlite3.connect(study)
+    (number,) = connection.execute("SELECT png FROM picture").fetchone()
+    connection.execute("UPDATE content SET packed = zeroblob(9) WHERE id = ?", (number,))
+    connection.commit()
+    connection.close()
+    printed(capsys, "log", study)  # which reads no picture
+    said = failed(capsys, "check", study)
+    assert f"content {number} of the study is not as it was written" in said
+    assert "there is no such file" in failed(capsys, "check", study.with_name("none.modeviz"))

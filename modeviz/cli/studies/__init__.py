@@ -1,1 +1,1 @@
-"""The commands on studies: `modeviz study log|export|diff|backup|note`."""
+"""The commands on studies: `modeviz study log|export|diff|backup|note|check`."""

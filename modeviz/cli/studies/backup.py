@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeviz.cli.command import Command
-from modeviz.cli.studies.options import StudyOptions, add_study
+from modeviz.cli.studies.options import StudyOptions, add_study_and_target
 from modeviz.journal.backup import backup
 
 
@@ -23,13 +23,7 @@ def back_up(options: BackupOptions) -> None:
 
 
 def _add_options(command: ArgumentParser) -> None:
-    add_study(command, is_needed=True)
-    command.add_argument(
-        "to",
-        type=Path,
-        metavar="TO",
-        help="a new file, or a folder",
-    )
+    add_study_and_target(command, "to", "a new file, or a folder")
 
 
 BACKUP = Command("backup", "copy a study, also while it is used", BackupOptions, _add_options, back_up)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from modeviz.cli.command import Command
 from modeviz.cli.results import json_text
-from modeviz.cli.studies.options import StudyOptions, add_study
+from modeviz.cli.studies.options import StudyOptions, add_study_and_target
 from modeviz.errors import ModevizError
 from modeviz.files.disk import check_writable, write_text
 from modeviz.journal.export import study_record, variants_table
@@ -42,13 +42,8 @@ def export_study(options: StudyExportOptions) -> None:
 
 
 def _add_options(command: ArgumentParser) -> None:
-    add_study(command, is_needed=True)
-    command.add_argument(
-        "file",
-        type=Path,
-        metavar="FILE",
-        help="its name ends in .json for all of the study, or .csv for its variants",
-    )
+    about = "its name ends in .json for all of the study, or .csv for its variants"
+    add_study_and_target(command, "file", about)
 
 
 EXPORT = Command(

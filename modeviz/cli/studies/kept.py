@@ -7,7 +7,6 @@ from pathlib import Path
 
 from modeviz.cli.terminal import remark
 from modeviz.journal.fingerprint import fingerprint_of
-from modeviz.journal.records import Records
 from modeviz.journal.study_file import StudyFile
 from modeviz.text.log import LOG
 from modeviz.vehicle.vehicle import Vehicle
@@ -27,7 +26,7 @@ def kept_study(path: Path, vehicle: Vehicle) -> Iterator[StudyFile]:
     try:
         if study.former:
             remark(f"{path}: was of an earlier modeviz; as it was it is in {study.former}")
-        begun_with = Records.of_file(path).study().vehicle_name
+        begun_with = study.study().vehicle_name
         if begun_with != vehicle.name:
             remark(f"{path}: is the study of {begun_with}, and goes on with {vehicle.name}")
         yield study

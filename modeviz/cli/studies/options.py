@@ -7,7 +7,7 @@ from pathlib import Path
 from modeviz.errors import ModevizError, listed
 from modeviz.files import builtin_vehicle
 from modeviz.files.folder import check_is_folder
-from modeviz.journal.places import study_path
+from modeviz.journal.places import ENDING, study_path
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import SessionId
 
@@ -37,7 +37,7 @@ def file_of(study: Path | None) -> Path:
     """
     if study is None:
         return study_path(builtin_vehicle(), is_ours=True)
-    if study.is_file():
+    if study.is_file() or study.suffix == f".{ENDING}":
         return study
     check_is_folder(study)
     return study_path(study)
@@ -67,6 +67,12 @@ def add_study(command: ArgumentParser, is_needed: bool = False) -> None:
         + ("" if is_needed else " (default: the pickup)"),
         **({} if is_needed else {"nargs": "?", "default": None}),
     )
+
+
+def add_study_and_target(command: ArgumentParser, name: str, about: str) -> None:
+    """Reads `StudyOptions` of a study that is named, and a field with the path that is written."""
+    add_study(command, is_needed=True)
+    command.add_argument(name, type=Path, metavar=name.upper(), help=about)
 
 
 def add_session(command: ArgumentParser) -> None:

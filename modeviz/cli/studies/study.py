@@ -2,6 +2,7 @@
 
 from modeviz.cli.command import CommandGroup
 from modeviz.cli.studies.backup import BACKUP
+from modeviz.cli.studies.check import CHECK
 from modeviz.cli.studies.diff import DIFF
 from modeviz.cli.studies.export import EXPORT
 from modeviz.cli.studies.log import LOG
@@ -9,6 +10,6 @@ from modeviz.cli.studies.note import NOTE
 
 STUDY = CommandGroup(
     "study",
-    "history, notes, export, comparison and backup of a study",
-    (LOG, NOTE, EXPORT, DIFF, BACKUP),
+    "history, notes, export, comparison, backup and check of a study",
+    (LOG, NOTE, EXPORT, DIFF, BACKUP, CHECK),
 )
