@@ -7,9 +7,11 @@ import numpy as np
 
 from modeviz.dynamics.assembly import assemble
 from modeviz.dynamics.mount_rates import static_ratios
+from modeviz.errors import VehicleError
 from modeviz.mounting.springs import AXIS
 from modeviz.mounting.static_system import PreparedStatics, prepare_statics
 from modeviz.mounting.statics import Statics, solve_statics
+from modeviz.units import STANDARD_GRAVITY
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.problem import DeflectionLimit
@@ -54,6 +56,21 @@ class Deflections:
     def of_vehicle(self, vehicle: Vehicle) -> "Deflections":
         """Return the same limits of the vehicle with mounts elsewhere or more of them."""
         return Deflections(prepare_statics(assemble(vehicle)), self.limits)
+
+    def gravity(self, load_case: str) -> Floats:
+        """Return what pulls on masses in a load case, (3,), m/s²."""
+        held = next(held for held in self.prepared.cases if held.case.name == load_case)
+        return STANDARD_GRAVITY * np.asarray(held.case.load_g, np.float64)
+
+    def check_held(self) -> None:
+        """Raises VehicleError where a weight that is put elsewhere would move what nothing holds."""
+        for limit in self.limits:
+            held = next(held for held in self.prepared.cases if held.case.name == limit.load_case)
+            if held.notes:
+                raise VehicleError(
+                    f"deflection of {limit.mount!r}: {held.notes[0]}; expected a load case in which "
+                    "all is held where an absorber is moved"
+                )
 
     def exact(self, rates: Rates) -> Floats:
         """Return the deflections of a vehicle that is made with these rates, (n_limits,), m."""

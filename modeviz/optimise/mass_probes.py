@@ -18,6 +18,9 @@ angle, with E the same sum of axes b bᵀ that are held, which are turned, (Σ a
     2 (u + Σ a s) · Σ s ∂a = - (u + Σ a s) E (u + Σ a s) + u E u
 
 where turning within the plane of several a is that of the springs, which other probes tell of.
+
+Under a load that stays the weight m g pulls along u + Σ a s, of which the same is taken: m g · ∂u, and
+m g · Σ s ∂a = - g E (Σ a s) m, along the motion of the mass from its carrier.
 """
 
 from collections.abc import Iterator
@@ -50,13 +53,16 @@ def mass_probes(
     on_carrier = replace(plain, ends=(carrier, GROUND))
     if variable.kind == "angles":
         held = tuple(f for f, is_held in zip(ALONG, carried.held, strict=True) if is_held)
-        parts = (replace(_less(plain), along=held), replace(on_carrier, along=held)) if held else ()
+        between = replace(plain, mass=0.0, ends=(body, carrier), weight=-plain.mass)
+        turned = _less(plain), on_carrier, between
+        parts = tuple(replace(part, along=held) for part in turned) if held else ()
     else:
-        parts = (replace(plain, has_arm=True),)
+        parts = (replace(plain, has_arm=True, weight=plain.mass),)
         if not isinstance(carried.carrier, RigidBody):
-            parts += (
+            parts = (
+                replace(plain, has_arm=True),
                 replace(_less(on_carrier), has_arm=True),
-                replace(on_carrier, inertia=carried.inertia),
+                replace(on_carrier, inertia=carried.inertia, weight=plain.mass),
                 replace(_less(plain), ends=(carrier, body)),
             )
     for shift in SHIFTS[variable.kind]:

@@ -12,8 +12,8 @@ from modeviz.vehicle.vehicle import Vehicle
 def check_places(vehicle: Vehicle, problem: Problem) -> None:
     """Raises VehicleError where a place does what no probe tells of.
 
-    So it is with dampers of single modes, which are others where mounts are elsewhere, and with the
-    weight of an absorber.
+    So it is with dampers of single modes, which are others where mounts are elsewhere, and with what is
+    felt on an absorber.
     """
     if vehicle.mode_damping and not is_undamped(problem):
         for group in problem.groups:
@@ -23,13 +23,8 @@ def check_places(vehicle: Vehicle, problem: Problem) -> None:
                     "their own, which would change with them; expected a goal that no damping enters, "
                     f"{', '.join(UNSHAKEN)}, or a vehicle without [[mode_damping]]"
                 )
-    for group, carried in _moved(vehicle, problem):
+    for group, carried in moved_masses(vehicle, problem):
         where = f"offset and angles of {group!r}"
-        if problem.deflections:
-            raise VehicleError(
-                f"{where}: its weight would go along, and deflections of mounts with it; expected no "
-                "[[problem.deflection]] where an absorber is moved"
-            )
         targets = problem.mounts or (MountTarget(),)
         if problem.goal == "transmissibility" and any(
             not target.mounts or group in target.mounts for target in targets
@@ -50,8 +45,8 @@ def is_undamped(problem: Problem) -> bool:
     return problem.goal in UNSHAKEN
 
 
-def _moved(vehicle: Vehicle, problem: Problem) -> Iterator[tuple[str, CarriedMass]]:
-    """The groups that may place an absorber otherwise, and its mass."""
+def moved_masses(vehicle: Vehicle, problem: Problem) -> Iterator[tuple[str, CarriedMass]]:
+    """Yield the groups that may place an absorber otherwise, and its mass."""
     for group in problem.groups:
         if group.offsets or group.angles:
             carried = carried_mass(vehicle, vehicle.mount_group(group.group))

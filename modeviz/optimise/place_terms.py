@@ -55,7 +55,8 @@ def margin_terms(limits: Deflections, by_rate: Floats, rates: Rates, probes: Pro
 
     A spring has the force k c'(d) d + f₀ on the straight part of its curve on which it is. The first
     part is that of a straight spring, of which probes tell; f₀ pulls along where the spring is then,
-    which is linear in its rows, as is what is read of the limited mount itself.
+    which is linear in its rows, as is what is read of the limited mount itself. Weights that go along
+    pull where they are.
 
     Args:
         limits: of the vehicle with its probes.
@@ -69,6 +70,7 @@ def margin_terms(limits: Deflections, by_rate: Floats, rates: Rates, probes: Pro
         return terms
     along = slice(3 * n_mounts, 3 * (n_mounts + n_probes))
     settling = limits.prepared.settling(rates)
+    axes = [mount.axes for mount in limits.prepared.vehicle.mounts[n_mounts:]]
     each = zip(terms, by_rate, limits.limits, limits.stretched(rates), strict=True)
     for term, own, limit, (spring, d) in each:
         mount, axis = divmod(spring, 3)
@@ -80,6 +82,9 @@ def margin_terms(limits: Deflections, by_rate: Floats, rates: Rates, probes: Pro
         read = np.einsum("p,pv->v", d[along].reshape(n_probes, 3)[:, axis], probes.slopes[mount])
         pulled = np.einsum("ma,pa,mpv->v", f0[: along.start].reshape(-1, 3), moved, probes.slopes)
         term += own[-len(by_place) :] @ by_place + slope * (read - pulled)
+        gravity = limits.gravity(limit.load_case)
+        for probe, turned, motion in zip(probes.probes, axes, moved, strict=True):
+            term[probe.number] += slope * float(motion @ probe.pull(turned @ gravity))
     return terms
 
 

@@ -108,9 +108,7 @@ class Probe:
 
     def group(self, probed: MountGroup, loss_factor: float) -> MountGroup:
         """Return it where the mount is that it probes, of that group."""
-        own = self.counts(self.given)
-        others = {f for f in own if own[f]} | (set(probed.fields) if self.is_read else set())
-        fields = [f for f in RATE_FIELDS if f in others or (f in STIFFNESS_FIELDS and self.is_read)]
+        fields = self._fields(probed)
         still = dict.fromkeys(SHARED, np.zeros(3))
         none = dict.fromkeys(STIFFNESS_FIELDS, 0.0)
         return replace(
@@ -134,10 +132,24 @@ class Probe:
         placed = self.variable.put(placements, value)[self.variable.group]
         return placed.mirrored if self.is_mirrored else placed
 
+    def pull(self, gravity: Floats) -> Floats:
+        """Return with what the weight of what is placed pulls along its axes, (3,), N/m or N/rad.
+
+        Args:
+            gravity: along these axes, (3,), m/s².
+        """
+        return 0.0 * gravity
+
     @property
     def _where(self) -> Mount:
         """The mount that it probes, with its ends where and on what they are probed."""
         return self.given
+
+    def _fields(self, probed: MountGroup) -> list[str]:
+        """Those of its rates to which derivatives are asked for."""
+        own = self.counts(self.given)
+        always = {*STIFFNESS_FIELDS, *probed.fields} if self.is_read else set()
+        return [f for f in RATE_FIELDS if f in always or own.get(f)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,6 +165,8 @@ class MassProbe(Probe):
     along: tuple[str, ...] = ALONG
     has_arm: bool = False
     """Whether its first end stays and a rigid arm reaches to where it is probed."""
+    weight: float = 0.0
+    """kg: what is pulled along these axes by a load that stays."""
 
     @property
     def own_name(self) -> str:
@@ -169,6 +183,14 @@ class MassProbe(Probe):
         if self.has_arm:
             return placements.get(self.variable.group, Placement())
         return super().placement(placements)
+
+    def pull(self, gravity: Floats) -> Floats:
+        is_offset = self.variable.kind == "offset"
+        by = self.weight * (self.shift.linear if is_offset else self.shift.square)
+        return by * gravity * np.isin(ALONG, self.along)
+
+    def _fields(self, probed: MountGroup) -> list[str]:
+        return list(self.counts(self.given))
 
     @property
     def _where(self) -> Mount:

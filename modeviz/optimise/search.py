@@ -16,7 +16,7 @@ from modeviz.optimise.deflections import Deflections, prepare_deflections
 from modeviz.optimise.design_space import DesignSpace, design_space
 from modeviz.optimise.goals import Goal, prepare_goal
 from modeviz.optimise.min_max import MinMax
-from modeviz.optimise.place_checks import check_places, is_undamped
+from modeviz.optimise.place_checks import check_places, is_undamped, moved_masses
 from modeviz.optimise.place_terms import change_of, goal_term, margin_terms
 from modeviz.optimise.probes import Probes
 from modeviz.optimise.windows import Windows, prepare_windows
@@ -264,4 +264,6 @@ def prepare_search(
         windows = prepare_windows(prepare_modes(vehicle), problem.windows) if problem.windows else None
         limits = problem.deflections
         deflections = prepare_deflections(vehicle, limits) if limits else None
+        if deflections and any(moved_masses(vehicle, problem)):
+            deflections.check_held()
     return Search(space, goal, windows, deflections, is_undamped(problem))

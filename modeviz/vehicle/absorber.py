@@ -8,7 +8,7 @@ from modeviz.errors import VehicleError
 from modeviz.vehicle.absorber_names import guide_name, mass_name
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND
-from modeviz.vehicle.local_axes import TurnOrder, axes_of_angles
+from modeviz.vehicle.local_axes import TurnOrder, angles_of_axes, axes_of_angles
 from modeviz.vehicle.mount_rates import USUAL_RANGE, check_directions
 from modeviz.vehicle.placement import Placement
 
@@ -101,8 +101,10 @@ class Absorber:
 
     def placed(self, placement: Placement) -> "Absorber":
         """Return it moved and turned as a mount is."""
-        position, angles = np.add(self.position, placement.offset), placement.angles
-        return replace(self, position=tuple(position.tolist()), angles=angles)
+        position = np.add(self.position, placement.offset)
+        axes = self.axes @ axes_of_angles(np.array(placement.angles), TurnOrder())
+        x, y, z = angles_of_axes(axes).tolist()
+        return replace(self, position=tuple(position.tolist()), angles=(x, y, z))
 
     @property
     def body_name(self) -> str:

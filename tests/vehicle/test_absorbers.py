@@ -160,3 +160,14 @@ def test_an_absorber_of_a_vehicle_is_placed_as_a_whole(directions):
     np.testing.assert_allclose(found, expected, rtol=1e-9)
     at = solve_modes(assemble(with_absorbers(mounted_cabin(), [absorber])), 40.0).frequency_hz
     assert np.abs(found / at - 1).max() > 1e-4
+
+
+def test_an_absorber_that_was_turned_is_turned_on_by_its_placement():
+    slanted = replace(ROOF, angles=(0.3, -0.2, 0.1))
+    placement = Placement((0.1, 0.0, -0.05), (0.0, 0.4, 0.2))
+    placed = with_absorbers(mounted_cabin(), [slanted.placed(placement)]).mount_group("roof").mounts[0]
+    whole = with_absorbers(mounted_cabin(), [slanted])
+    expected = with_placements(whole, {"roof": placement}).mount_group("roof").mounts[0]
+    np.testing.assert_allclose(placed.axes, expected.axes, atol=1e-12)
+    np.testing.assert_allclose(placed.points, expected.points, atol=1e-12)
+    assert slanted.placed(Placement()).angles == pytest.approx(slanted.angles)
