@@ -141,7 +141,11 @@ def sessions(connection: Connection) -> tuple[SessionLine, ...]:
         " (SELECT count(*) FROM change WHERE change.session = session.id) FROM session ORDER BY id"
     ).fetchall()
     return tuple(
-        SessionLine(*row, tuple(_variants(connection, row[0])), _reviews(connection, row[0]))
+        SessionLine(
+            *row,
+            variants=tuple(_variants(connection, row[0])),
+            reviews=_reviews(connection, row[0]),
+        )
         for row in rows
     )
 

@@ -17,31 +17,20 @@ class Stated:
     session: SessionId
     at: float
     """s since 1970."""
-
-
-@dataclass(frozen=True)
-class Recorded(Stated):
-    """Writes a change that a session accepted."""
-
-    change: Change
-
-    def __call__(self, connection: Connection) -> None:
-        stored.record(connection, self.session, self.change, self.at)
+    what: Change | str
+    """A change that it accepted, or how it is looked at."""
 
     @property
     def state(self) -> str:
-        """The session's state after it."""
-        return self.change.state
-
-
-@dataclass(frozen=True)
-class Looked(Stated):
-    """Writes how a session is looked at."""
-
-    state: str
+        """The session's state then."""
+        return self.what.state if isinstance(self.what, Change) else self.what
 
     def __call__(self, connection: Connection) -> None:
-        stored.look(connection, self.session, self.state, self.at)
+        """Writes it."""
+        if isinstance(self.what, Change):
+            stored.record(connection, self.session, self.what, self.at)
+        else:
+            stored.look(connection, self.session, self.what, self.at)
 
 
 def look_key(session: SessionId) -> Hashable:
@@ -49,16 +38,15 @@ def look_key(session: SessionId) -> Hashable:
     return "look", session
 
 
-def fewer(writes: Sequence[Recorded | Looked]) -> Sequence[tuple[Hashable, Recorded | Looked]]:
+def fewer(writes: Sequence[Stated]) -> Sequence[tuple[Hashable, Stated]]:
     """Return fewer writes that come to the same, with their keys, see `compacted`.
 
     Args:
         writes: of one session, the first one first.
     """
     newest = writes[-1]
-    recorded = [each for each in writes if isinstance(each, Recorded)]
-    times = {each.change.after: each.at for each in recorded}
-    kept = compacted([each.change for each in recorded])
-    changes = [Recorded(newest.session, times[change.after], change) for change in kept]
-    look = Looked(newest.session, newest.at, newest.state)
+    times = {each.what.after: each.at for each in writes if isinstance(each.what, Change)}
+    kept = compacted([each.what for each in writes if isinstance(each.what, Change)])
+    changes = [Stated(newest.session, times[change.after], change) for change in kept]
+    look = Stated(newest.session, newest.at, newest.state)
     return [*((None, each) for each in changes), (look_key(newest.session), look)]

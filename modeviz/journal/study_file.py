@@ -27,7 +27,7 @@ from modeviz.journal.records import Records
 from modeviz.journal.runs import Run, write_run
 from modeviz.journal.schema import create
 from modeviz.journal.sessions import SessionId, StoredSession
-from modeviz.journal.states import Looked, Recorded, Stated, fewer, look_key
+from modeviz.journal.states import Stated, fewer, look_key
 from modeviz.journal.upgrade import upgrade
 from modeviz.journal.writer import Writer
 from modeviz.report.notes import Note
@@ -138,13 +138,13 @@ class StudyFile(Records):
     def record(self, session: SessionId, change: Change) -> None:
         """Writes a change that a session accepted."""
         key = self._key(session, change)
-        self._writer.put(Recorded(session, time.time(), change), session, key)
+        self._writer.put(Stated(session, time.time(), change), session, key)
         if self.trouble and self._is_time_to_compact(session):
             self._writer.rework(session, Stated, fewer)
 
     def look(self, session: SessionId, state: str) -> None:
         """Writes how a session is looked at now; of several the newest counts."""
-        self._writer.put(Looked(session, time.time(), state), session, look_key(session))
+        self._writer.put(Stated(session, time.time(), state), session, look_key(session))
 
     def see(self, session: SessionId, view: str) -> None:
         """Writes how the pages of a session show it, as text; of several the newest counts."""

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 Write = Callable[[Connection], object]
 
-AnyWrite = TypeVar("AnyWrite", bound=Write)
+AnyWrite = TypeVar("AnyWrite")
 
 Rework = Callable[[Sequence[AnyWrite]], Sequence[tuple[Hashable, Write]]]
 
@@ -81,11 +81,11 @@ class Queue:
             kind: of writes.
             rework: makes writes of these, the first one first, that come to the same, with their keys.
         """
-        found = {
-            name: each.write
-            for name, each in self._waiting.items()
-            if each.owner == owner and isinstance(each.write, kind) and name not in self._taken
-        }
+        found: dict[Hashable, AnyWrite] = {}
+        for name, each in self._waiting.items():
+            write = each.write
+            if each.owner == owner and isinstance(write, kind) and name not in self._taken:
+                found[name] = write
         if not found:
             return
         first = next(iter(found))

@@ -23,7 +23,7 @@ from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.recorded import recorded
 from modeviz.viewer.session.state import ResponseCurve, first_state
 from modeviz.viewer.tasks.background_task import Job
-from modeviz.viewer.tasks.earlier_runs import found_of
+from modeviz.viewer.tasks.earlier_runs import design_of, front_of, scatter_of
 from modeviz.viewer.tasks.front_task import Goals, Trade
 from modeviz.viewer.tasks.run_recorder import told
 
@@ -129,7 +129,7 @@ def test_what_the_full_model_said_of_a_design_comes_back_as_it_was_said():
     designs = tuple(ParetoPoint(np.zeros(1), VEHICLE.rates, (1.0, 2.0), each) for each in said)
     trade = Trade(("this", "that"), VEHICLE.problems[0], None, FIRST, ())
     title, record = told(Job(trade, "cancelled", 0.5, designs))
-    found = found_of(Run("front", title, json.dumps({"phase": "cancelled", **record}))).found
+    found = front_of(Run("front", title, json.dumps({"phase": "cancelled", **record}))).found
     for one, other in zip(said, [design.verification for design in found], strict=True):
         assert (one is None) == (other is None)
         if one:
@@ -158,4 +158,5 @@ def test_what_the_full_model_said_of_a_design_comes_back_as_it_was_said():
     ],
 )
 def test_a_run_of_which_too_little_is_kept_is_listed_only(kind, record):
-    assert found_of(Run(kind, "a run", record)) is None
+    run = Run(kind, "a run", record)
+    assert (front_of(run), scatter_of(run), design_of(run)) == (None, None, None)

@@ -2,8 +2,8 @@
 
 import json
 import math
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 import numpy as np
 
@@ -11,10 +11,11 @@ from modeviz.analysis.results import Conditions
 from modeviz.dynamics.truncation_gap import TruncationGap
 from modeviz.errors import ModevizError
 from modeviz.journal.records import UNREADABLE
-from modeviz.journal.runs import Run
+from modeviz.journal.runs import Run, RunKind
 from modeviz.journal.tuning import Pinned, pinned_of_record
 from modeviz.optimise.trade_off import ParetoPoint
 from modeviz.optimise.verification import Verification
+from modeviz.report.records import Record
 from modeviz.viewer.session.encoding.plain import value_of
 from modeviz.viewer.tasks.background_task import Job, Phase
 from modeviz.viewer.tasks.front_task import Designs, Goals
@@ -26,31 +27,42 @@ Scattering = Job[Built, ScatterOutcome]
 ENDED: Mapping[str, Phase] = {"ended": "ended", "cancelled": "cancelled"}
 
 
-def found_of(run: Run) -> Front | Scattering | Pinned | None:
-    """Return a front, a scatter with its band, or the design of a search, as `RunRecorder` wrote it.
+Shown = TypeVar("Shown")
 
-    None of a run that found nothing, or of which an earlier modeviz kept too little to show it.
-    """
+
+def front_of(run: Run) -> Front | None:
+    """Return a front, as `RunRecorder` wrote it; None of another run, or if it has no designs."""
+    return _read(run, "front", _front)
+
+
+def scatter_of(run: Run) -> Scattering | None:
+    """Return a scatter with its band; None of another run, or if it was kept without a band."""
+    return _read(run, "scatter", _scatter)
+
+
+def design_of(run: Run) -> Pinned | None:
+    """Return the rates and places that a search found; None of another run, or if it found nothing."""
+    return _read(run, "search", pinned_of_record)
+
+
+def _read(run: Run, kind: RunKind, read: Callable[[Record], Shown]) -> Shown | None:
+    if run.kind != kind:
+        return None
     try:
-        record: Mapping[str, Any] = json.loads(run.record)
-        match run.kind:
-            case "front":
-                return _front(record) if record["designs"] else None
-            case "scatter":
-                return _scatter(record) if "bands" in record else None
-            case "search":
-                return pinned_of_record(record) if "value" in record else None
-    except (*UNREADABLE, ModevizError):
+        return read(json.loads(run.record))
+    except (*UNREADABLE, ModevizError):  # there is nothing to show of it
         return None
 
 
-def _front(record: Mapping[str, Any]) -> Front:
+def _front(record: Record) -> Front:
     first, second = map(str, record["sides"])
     designs = tuple(map(_design, record["designs"]))
+    if not designs:
+        raise ValueError("found no designs")
     return Job(Goals((first, second)), ENDED[record["phase"]], 1.0, designs)
 
 
-def _design(record: Mapping[str, Any]) -> ParetoPoint:
+def _design(record: Record) -> ParetoPoint:
     taken = pinned_of_record(record)
     first, second = map(float, record["values"])
     told = record.get("verification")
@@ -58,7 +70,7 @@ def _design(record: Mapping[str, Any]) -> ParetoPoint:
     return ParetoPoint(np.zeros(0), taken.rates, (first, second), verification, taken.placements)
 
 
-def _verification(record: Mapping[str, Any]) -> Verification:
+def _verification(record: Record) -> Verification:
     gap = record["gap"]
     return Verification(
         _number(record["value"]),
@@ -75,7 +87,7 @@ def _number(value: float | None) -> float:
     return math.nan if value is None else float(value)
 
 
-def _scatter(record: Mapping[str, Any]) -> Scattering:
+def _scatter(record: Record) -> Scattering:
     bands = record["bands"]
     points, f = tuple(map(str, bands["points"])), np.array(bands["frequency_hz"], float)
     percentiles = np.array([bands[LOW], bands[HIGH]], float)

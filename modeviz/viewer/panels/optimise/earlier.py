@@ -8,15 +8,14 @@ from html import escape
 import viser
 
 from modeviz.journal.runs import Run, RunKind
-from modeviz.journal.tuning import Pinned
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, span
 from modeviz.viewer.page.named_buttons import NamedButtons
 from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.tasks.earlier_runs import found_of
-from modeviz.viewer.tasks.front_task import FrontTask, Goals
-from modeviz.viewer.tasks.scatter_task import Built, ScatterTask
+from modeviz.viewer.tasks.earlier_runs import design_of, front_of, scatter_of
+from modeviz.viewer.tasks.front_task import FrontTask
+from modeviz.viewer.tasks.scatter_task import ScatterTask
 
 MOST = 12
 """Lines, of the newest."""
@@ -60,7 +59,7 @@ class EarlierRuns:
             self._runs[run.token] = run
         self._draw()
         for kind in SHOWN_AT_ONCE:
-            newest = [run for run in self._runs.values() if run.kind == kind and found_of(run)]
+            newest = [run for run in self._runs.values() if run.kind == kind and _can_be_shown(run)]
             if newest:
                 self._show(newest[-1].token)
 
@@ -77,17 +76,18 @@ class EarlierRuns:
             ModevizError: another one is running, or the vehicle has not what it found any more.
         """
         run = self._runs.get(token)
-        found = run and found_of(run)
-        if isinstance(found, Pinned):
-            self._session.do(TakeDesign(found.rates, found.placements))
-        elif found and isinstance(found.asked, Goals):
-            self._trader.show(found)
-        elif found and isinstance(found.asked, Built):
-            self._scatterer.show(found)
+        if run is None:
+            return
+        if front := front_of(run):
+            self._trader.show(front)
+        if scatter := scatter_of(run):
+            self._scatterer.show(scatter)
+        if design := design_of(run):
+            self._session.do(TakeDesign(design.rates, design.placements))
 
     def _draw(self) -> None:
         with self._lock:
-            self._buttons.keep([token for token, run in self._runs.items() if found_of(run)])
+            self._buttons.keep([token for token, run in self._runs.items() if _can_be_shown(run)])
             lines = [self._line(run) for run in reversed(self._runs.values())]
             assign(self._list, content=block(heading("Earlier"), *lines) if lines else "")
 
@@ -98,3 +98,8 @@ class EarlierRuns:
         if run.token in self._buttons:
             text = self._buttons.label(run.token, hinted(text, HINTS[run.kind]))
         return f"<div>{text} {span(escape(f'{when}{who}'), 'dim')}</div>"
+
+
+def _can_be_shown(run: Run) -> bool:
+    """Whether what a run found is kept."""
+    return any((front_of(run), scatter_of(run), design_of(run)))
