@@ -3,13 +3,9 @@
 viser 1.1.1 answers everybody, accepts any Origin and obeys links that load other people's scenes.
 """
 
-import asyncio
-import re
-import threading
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
-from urllib.parse import parse_qsl, quote, urlencode, urlsplit
-from weakref import WeakSet
+from urllib.parse import urlsplit
 
 import viser
 from websockets import Headers
@@ -18,17 +14,15 @@ from websockets.http11 import Request, Response
 
 from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.cookies import cookies, give_cookie
+from modeviz.viewer.page.content_policy import content_policy
+from modeviz.viewer.page.cookies import give_cookie
+from modeviz.viewer.page.entry import Entry, missing, port_of
 from modeviz.viewer.page.forwarded import Asked
-from modeviz.viewer.page.guesses import Guesses
-from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
-from modeviz.viewer.page.origins import ANCESTORS, Origins
+from modeviz.viewer.page.origins import Origins
 from modeviz.viewer.page.request_head import is_websocket, query_of
 from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 
-NO_TOKEN = "open the whole link that modeviz printed, with its token"
-NO_REVIEW = "this review has ended: ask who shared it for a new link"
 OTHER_VERSION = "this page is of another version of modeviz: load it again"
 BUSY = "many pages are being opened: this one is tried again"
 TOO_MANY_CONNECTIONS = "your address has more connections than it may"
@@ -70,15 +64,10 @@ class Door:
     """Answers who asks how the server is: everybody who knows a name of it, and nothing private."""
     lets_look: Callable[[Request], bool] = lambda _: False
     """Whether a request brings the key of a review in place of the token, and asks for that alone."""
-    guesses: Guesses = field(default_factory=Guesses)
-    inside: WeakSet[PageConnection] = field(default_factory=WeakSet)
-    """Websockets that may have opened."""
-    lock: threading.Lock = field(default_factory=threading.Lock)
-    """Of these."""
+    _entry: Entry = field(init=False)
 
     def __post_init__(self) -> None:
-        if self.secret is not None:
-            self.secret.listen(self._throw_out)
+        self._entry = Entry(self.secret, self._is_in_frames, lambda request: self.lets_look(request))
 
     @property
     def token(self) -> str | None:
@@ -148,14 +137,14 @@ class Door:
         if urlsplit(request.path).path.endswith(f"/{WHY}"):
             why = self.refusal(request) or self._why(connection, request)
             return why or await inner(connection, request)
-        if refusal := self.refusal(request) or await self._token_answer(connection, request):
+        if refusal := self.refusal(request) or await self._entry.answer(connection, request):
             return refusal
         if urlsplit(request.path).path.endswith(f"/{ALIVE}"):
             return answer(200, ICON, **{"Content-Type": "image/svg+xml", "Cache-Control": "no-store"})
         response = await inner(connection, request)
         if is_websocket(request):
-            return response or self._admit(connection, request)
-        return self._renewed(response, connection, request)
+            return response or self._entry.admit(connection, request)
+        return self._entry.renewed(response, connection, request)
 
     def refusal(self, request: Request) -> Response | None:
         """Return the answer to a request from another site, None to a good one."""
@@ -169,76 +158,11 @@ class Door:
             is_refused = path is None or self.refusal(request) is not None
         except ValueError:
             return False
-        return not is_refused and self._has_entered(Request(path or "", request.headers), port)
-
-    async def _token_answer(self, connection: PageConnection, request: Request) -> Response | None:
-        """The answer to who has no token, or brings it in the link and gets a cookie for it.
-
-        Who guesses waits longer and longer; who has entered is not asked again.
-        """
-        if self.secret is None:
-            return None
-        client, has_entered = connection.client, self._has_entered(request, _port(connection))
-        given = query_of(request).get("token")
-        if not given or is_websocket(request):
-            return None if has_entered else answer(403, _missing(request))
-        if not has_entered and (left := self.guesses.locked(client)):
-            return answer(
-                429, "too many wrong tokens from your address", **{"Retry-After": f"{left:.0f}"}
-            )
-        if not self.secret.is_token(given):
-            await asyncio.sleep(self.guesses.note(client))
-            return answer(403, NO_TOKEN)
-        self.guesses.forget(client)
-        entered = answer(303, Location=_without_token(request.path))
-        self._give_entry(self.secret, connection, entered)
-        return entered
-
-    def _give_entry(self, secret: Secret, connection: PageConnection, response: Response) -> None:
-        name = _cookie_name(_port(connection))
-        self.give_cookie(connection, response, name, secret.cookie(), LIFE_S)
-
-    def _age(self, request: Request, port: int) -> float | None:
-        """Return the time since a request's cookie was given out, s; None if it has none that holds."""
-        given = cookies(request).get(_cookie_name(port), "")
-        return self.secret and self.secret.age(given)
-
-    def _has_entered(self, request: Request, port: int) -> bool:
-        """Whether a request has the cookie of who has brought the token, or needs none."""
-        has_cookie = self.secret is None or self._age(request, port) is not None
-        return has_cookie or self.lets_look(request)
-
-    def _renewed(
-        self, response: Response | None, connection: PageConnection, request: Request
-    ) -> Response | None:
-        """Return an answer with a new cookie, if that of the request is a day old."""
-        if response and self.secret and (self._age(request, _port(connection)) or 0.0) > RENEWED_S:
-            self._give_entry(self.secret, connection, response)
-        return response
-
-    def _admit(self, connection: PageConnection, request: Request) -> Response | None:
-        """Remembers a websocket that opens; the answer if the token has changed meanwhile."""
-        with self.lock:
-            self.inside.add(connection)
-        return None if self._has_entered(request, _port(connection)) else answer(403, _missing(request))
-
-    def _throw_out(self) -> None:
-        """Ends all websockets, as the token has changed: who has brought the new one comes back."""
-        with self.lock:
-            inside = list(self.inside)
-        for connection in inside:
-            connection.throw_out()
+        return not is_refused and self._entry.has_entered(Request(path or "", request.headers), port)
 
     def policy(self, request: Request) -> str:
         """Return what a page may do, and who may show it, as Content-Security-Policy says it."""
-        hosts = [request.headers["Host"], *(f"{name}:*" for name in self.around.public_names)]
-        sockets = " ".join(f"ws://{host} wss://{host}" for host in hosts)
-        frames = (*((ANCESTORS,) if self.is_framed else ()), *self.around.frames)
-        ancestors = " ".join(frames) or "'none'"
-        return (
-            f"frame-ancestors {ancestors}; connect-src 'self' {sockets} data: blob:; "
-            "object-src 'none'; base-uri 'none'"
-        )
+        return content_policy(request.headers["Host"], self.around, self.is_framed)
 
     async def place(self, connection: PageConnection, request: Request) -> Response | None:
         """Return the answer to a websocket of something else than our page, or of one too many."""
@@ -256,37 +180,13 @@ class Door:
         _set(asked.headers, "Upgrade", "websocket")
         if refusal := self.refusal(asked):
             return answer(200, refusal.body.decode())
-        if not self._has_entered(request, _port(connection)):
-            return answer(200, _missing(request))
+        if not self._entry.has_entered(request, port_of(connection)):
+            return answer(200, missing(request))
         if query.get("subprotocol") != SUBPROTOCOL:
             return answer(200, OTHER_VERSION)
         if not connection.has_page_place():
             return answer(200, TOO_MANY)
         return answer(200, BUSY) if connection.must_wait() else None
-
-
-def _port(connection: PageConnection) -> int:
-    """Return the port at which a connection came in."""
-    return connection.local_address[1]
-
-
-def _cookie_name(port: int) -> str:
-    """Cookies are shared by all ports of a host."""
-    return f"modeviz{port}"
-
-
-def _missing(request: Request) -> str:
-    """What somebody is told who may not enter."""
-    return NO_REVIEW if "review" in query_of(request) else NO_TOKEN
-
-
-def _without_token(path: str) -> str:
-    """The same page without the token, from where the browser is: a proxy may have a longer path."""
-    url = urlsplit(path)
-    pairs = parse_qsl(url.query, keep_blank_values=True)
-    rest = urlencode([pair for pair in pairs if pair[0] != "token"])
-    name = quote(re.split(r"[/\\]", url.path)[-1], safe="%")
-    return f"./{name}" + (f"?{rest}" if rest else "")
 
 
 def _set(headers: Headers, name: str, value: str) -> None:

@@ -15,17 +15,6 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 REFUSED_PARAMETERS = ("websocket", "playbackPath")
 """In a link they make the page load a scene, with its scripts, from somewhere else."""
 
-ANCESTORS = " ".join(
-    [
-        "'self'",
-        *(f"{scheme}://{name}:*" for scheme in ("http", "https") for name in LOOPBACK[:2]),
-        "vscode-webview:",
-        "vscode-file:",
-    ]
-)
-"""Where notebooks are shown, as Content-Security-Policy names them: at our own address, through their
-server, or on this machine. VS Code shows them in a page of its own in one of its window."""
-
 HOST = re.compile(r"(?:\[([0-9a-f:.]+)\]|([\w.-]+))(?::\d+)?", re.ASCII | re.IGNORECASE)
 """A Host header: an IPv6 address in brackets or a name, and a port."""
 

@@ -12,8 +12,9 @@ from websockets.http11 import Request, Response
 from modeviz.viewer.page.acceptor import Acceptor
 from modeviz.viewer.page.answers import answer
 from modeviz.viewer.page.connection import PageConnection
+from modeviz.viewer.page.entry import NO_REVIEW
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.handshake import NO_REVIEW, WHY
+from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.one_page import PATHS
 from modeviz.viewer.page.page_file import PageFile
 from modeviz.viewer.page.request_head import query_of
