@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from modeviz.analysis.engine_results import EngineResults
+from modeviz.analysis.engine_results import EngineResults, solve_engine
 from modeviz.analysis.results import AXIS
 from modeviz.errors import VehicleError, unknown
 from modeviz.report.engine import (
@@ -14,9 +14,11 @@ from modeviz.report.engine import (
     speed_rows,
 )
 from modeviz.report.records import Record
+from modeviz.study.conditions import need
 from modeviz.study.displayed import Displayed
 from modeviz.study.names import axis_of, number_of, point_number
 from modeviz.study.notebook import block
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS
@@ -139,3 +141,12 @@ class EngineRide(Displayed):
             ]
         forces = table(["RMS of all orders at idle, N", *force_columns()], force_rows(results))
         return block(f"{self.vehicle.name} while {results.engine.name} runs", *parts, forces)
+
+
+def engine_ride(tuned: TunedVehicle, name: str | None) -> EngineRide:
+    """Return what an engine does to a vehicle; arguments and errors as of `Study.engine`."""
+    vehicle, rates = tuned.vehicle, tuned.rates.by_group
+    need(vehicle, "engine", vehicle.engines)
+    need(vehicle, "response point", (*vehicle.response_points, *vehicle.mounts))
+    engine = vehicle.engines[0] if name is None else vehicle.engine(name)
+    return EngineRide(vehicle.with_rates(rates), solve_engine(tuned.prepared(), rates, engine))

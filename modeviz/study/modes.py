@@ -3,18 +3,21 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from typing import get_args
 
 import numpy as np
 
 from modeviz.analysis.deflection_shapes import complex_mode
 from modeviz.analysis.modal_results import ModalResults
-from modeviz.analysis.mode_tracking import Followed
+from modeviz.analysis.mode_tracking import Followed, solve_followed
+from modeviz.dynamics.band import Method
 from modeviz.dynamics.damped import DampedMode
 from modeviz.report.records import Record, modes_record
 from modeviz.report.tables import came_from, health, largest, modes_table
 from modeviz.study.displayed import Displayed
-from modeviz.study.names import number_of
+from modeviz.study.names import check_choice, number_of
 from modeviz.study.notebook import block, paragraphs
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
 
@@ -153,6 +156,13 @@ class ModesTable(Displayed):
             was=came_from(self.followed, i),
             shape=results.modes.shapes[:, i],
         )
+
+
+def modes_below(tuned: TunedVehicle, below_hz: float | None, method: Method) -> ModesTable:
+    """Return the modes of a vehicle; arguments and errors as of `Study.modes`."""
+    below = tuned.band_end("below_hz", below_hz)
+    check_choice("method", method, get_args(Method))
+    return ModesTable(solve_followed(tuned.prepared_modes(below), tuned.rates.by_group, method), below)
 
 
 def _shares(energy: Mapping[str, Floats], mode: int) -> dict[str, float]:

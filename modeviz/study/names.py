@@ -1,9 +1,9 @@
-"""What is asked for by its name: response points, loads and directions."""
+"""What is asked for by its name: response points, directions, and one of few choices."""
 
 from collections.abc import Iterable
 
 from modeviz.analysis.results import AXIS
-from modeviz.errors import VehicleError, unknown
+from modeviz.errors import ModevizError, VehicleError, unknown
 from modeviz.vehicle.vehicle import Vehicle
 
 
@@ -17,6 +17,13 @@ def axis_of(direction: str) -> int:
 def point_number(vehicle: Vehicle, name: str) -> int:
     """Return the number of a response point, from zero; raises VehicleError for an unknown one."""
     return number_of("response point", name, (point.name for point in vehicle.response_points))
+
+
+def check_choice(kind: str, given: str, known: Iterable[str]) -> None:
+    """Raises ModevizError unless what is given is one of what there is."""
+    names = list(known)
+    if given not in names:
+        raise ModevizError(unknown(kind, given, names))
 
 
 def number_of(kind: str, name: str, names: Iterable[str]) -> int:

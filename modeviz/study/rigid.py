@@ -3,18 +3,20 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
+from typing import get_args
 
 import numpy as np
 
-from modeviz.analysis.modal_results import ModalResults
-from modeviz.analysis.rigid import RigidBodyFigures
+from modeviz.analysis.modal_results import ModalResults, solve_modal
+from modeviz.analysis.rigid import RigidBodyFigures, rigid_figures
 from modeviz.mounting.axes import ElasticAxes
 from modeviz.mounting.purity import Purity
 from modeviz.report.records import Record
 from modeviz.report.rigid import listed_modes, percent, rigid_record, rigid_table, verdict_lines
 from modeviz.study.displayed import Displayed
-from modeviz.study.names import number_of
+from modeviz.study.names import check_choice, number_of
 from modeviz.study.notebook import block, paragraphs
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import MOTIONS
@@ -146,6 +148,14 @@ class RigidBodies(Displayed):
         header = [f"{escape(figures.name)}, % of the mode", "Hz", *MOTIONS, "Share"]
         yield table(header, rows)
         yield paragraphs(*(line.strip() for line in verdict_lines(found)), *_said(figures))
+
+
+def rigid_bodies(tuned: TunedVehicle, axes: Axes, up_to_hz: float | None) -> RigidBodies:
+    """Return the bodies of a vehicle on their mounts; arguments and errors as of `Study.rigid`."""
+    below = tuned.band_end("up_to_hz", up_to_hz)
+    check_choice("axes", axes, get_args(Axes))
+    results = solve_modal(tuned.prepared_modes(below), tuned.rates.by_group)
+    return RigidBodies(results, axes, rigid_figures(results, axes))
 
 
 def _said(figures: RigidBodyFigures) -> Iterator[str]:

@@ -6,13 +6,15 @@ from html import escape
 import numpy as np
 
 from modeviz.analysis.results import AXIS, Results
-from modeviz.analysis.sensitivity import Sensitivity, rate_variables
+from modeviz.analysis.sensitivity import Sensitivity, rate_variables, sensitivity
 from modeviz.report.rate_fields import is_damping
 from modeviz.report.records import Record
 from modeviz.report.tables import table as text_table
+from modeviz.study.conditions import need
 from modeviz.study.displayed import Displayed
 from modeviz.study.names import axis_of, number_of, point_number
 from modeviz.study.notebook import block, paragraphs
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.text.markup import table
 from modeviz.text.wording import signed
 from modeviz.vehicle.arrays import Floats
@@ -137,3 +139,10 @@ class RateSensitivity(Displayed):
 
     def _by_rate(self, values: Floats) -> dict[str, float]:
         return dict(zip(self.rates, values.tolist(), strict=True))
+
+
+def rate_sensitivity(tuned: TunedVehicle, road: str | None) -> RateSensitivity:
+    """Return what ten percent more of each rate do; arguments and errors as of `Study.sensitivity`."""
+    need(tuned.vehicle, "mount group", tuned.vehicle.mount_groups)
+    results = tuned.ride(road)
+    return RateSensitivity(results, sensitivity(tuned.prepared(), results))

@@ -8,45 +8,37 @@ from typing import get_args
 import numpy as np
 
 from modeviz.analysis.absorbers import tuned_absorber
-from modeviz.analysis.engine_results import solve_engine
 from modeviz.analysis.forces import LoadedForces
 from modeviz.analysis.modal_results import solve_modal
-from modeviz.analysis.mode_tracking import solve_followed
-from modeviz.analysis.rigid import rigid_figures
-from modeviz.analysis.sensitivity import sensitivity
-from modeviz.analysis.wheel_results import solve_wheels
 from modeviz.compute.threads import one_thread
 from modeviz.dynamics.band import Method
-from modeviz.errors import ModevizError, unknown
 from modeviz.files import builtin_vehicle, read_vehicle
 from modeviz.mounting.paths import By
 from modeviz.mounting.statics import solve_statics
 from modeviz.optimise.run import BUDGET
-from modeviz.optimise.search import prepare_search
-from modeviz.optimise.trade_off import chosen_sides, prepare_trade_off
-from modeviz.scatter.driving import ScatterOptions, drive_many
-from modeviz.scatter.searching import FRONT_STARTS, SearchOptions, find_best
+from modeviz.scatter.driving import ScatterOptions
+from modeviz.scatter.searching import FRONT_STARTS, SearchOptions
 from modeviz.scatter.tolerance import Tolerance
-from modeviz.study.conditions import has_ride, need, road_conditions
-from modeviz.study.engine import EngineRide
+from modeviz.study.engine import EngineRide, engine_ride
 from modeviz.study.forces import MountForces, loaded_forces
-from modeviz.study.modes import ModesTable
-from modeviz.study.names import number_of
+from modeviz.study.modes import ModesTable, modes_below
+from modeviz.study.names import check_choice, number_of
 from modeviz.study.notebook import block, paragraphs
 from modeviz.study.optimum import OptimiseResult
 from modeviz.study.output import StudyOutput
 from modeviz.study.paths import ResponsePaths, point_paths
 from modeviz.study.rates import StudyRates
 from modeviz.study.ride import Ride
-from modeviz.study.rigid import RigidBodies
+from modeviz.study.rigid import RigidBodies, rigid_bodies
 from modeviz.study.scatter import ScatterResult
-from modeviz.study.searching import chosen_problem, find_designs, telling
-from modeviz.study.sensitivity import RateSensitivity
+from modeviz.study.scattering import scattered
+from modeviz.study.searching import better_rates, designs_between
+from modeviz.study.sensitivity import RateSensitivity, rate_sensitivity
 from modeviz.study.static import StaticResults
-from modeviz.study.telling import Tell, cancelled_by_ctrl_c, say_nothing
+from modeviz.study.telling import Tell, say_nothing
 from modeviz.study.trade_off import FrontResult
 from modeviz.study.tuned_vehicle import TunedVehicle
-from modeviz.study.wheels import WheelRide
+from modeviz.study.wheels import WheelRide, wheel_ride
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.decoupling import Axes
 from modeviz.vehicle.problem import Problem
@@ -128,11 +120,7 @@ class Study(StudyOutput):
             ModevizError: that frequency is not above zero, or there is no such method.
             SolveError: the vehicle has no meaningful modes.
         """
-        below = self._frequency("below_hz", below_hz)
-        if method not in get_args(Method):
-            raise ModevizError(unknown("method", method, get_args(Method)))
-        prepared = self._tuned.prepared_modes(below)
-        return ModesTable(solve_followed(prepared, self.rates.by_group, method), below)
+        return modes_below(self._tuned, below_hz, method)
 
     @one_thread()
     def rigid(self, axes: Axes = "vehicle", up_to_hz: float | None = None) -> RigidBodies:
@@ -146,11 +134,7 @@ class Study(StudyOutput):
         Raises:
             ModevizError: that frequency is not above zero, or there are no such axes.
         """
-        below = self._frequency("up_to_hz", up_to_hz)
-        if axes not in get_args(Axes):
-            raise ModevizError(unknown("axes", axes, get_args(Axes)))
-        results = solve_modal(self._tuned.prepared_modes(below), self.rates.by_group)
-        return RigidBodies(results, axes, rigid_figures(results, axes))
+        return rigid_bodies(self._tuned, axes, up_to_hz)
 
     @one_thread()
     def tuned_absorber(
@@ -203,12 +187,7 @@ class Study(StudyOutput):
         Raises:
             ModevizError: the vehicle has no such load, or nothing to feel it with.
         """
-        vehicle = self.vehicle
-        need(vehicle, "response point", vehicle.response_points)
-        need(vehicle, "wheel load", vehicle.harmonic_loads)
-        results = solve_wheels(self._tuned.prepared(), self.rates.by_group)
-        ride = self._tuned.ride(None) if has_ride(vehicle) else None
-        return WheelRide(vehicle.with_rates(self.rates.by_group), results, ride)
+        return wheel_ride(self._tuned)
 
     @one_thread()
     def engine(self, name: str | None = None) -> EngineRide:
@@ -220,12 +199,7 @@ class Study(StudyOutput):
         Raises:
             ModevizError: the vehicle has no such engine, or nothing to feel it with.
         """
-        vehicle = self.vehicle
-        need(vehicle, "engine", vehicle.engines)
-        need(vehicle, "response point", (*vehicle.response_points, *vehicle.mounts))
-        engine = vehicle.engines[0] if name is None else vehicle.engine(name)
-        results = solve_engine(self._tuned.prepared(), self.rates.by_group, engine)
-        return EngineRide(vehicle.with_rates(self.rates.by_group), results)
+        return engine_ride(self._tuned, name)
 
     @one_thread()
     def static(self) -> StaticResults:
@@ -274,8 +248,7 @@ class Study(StudyOutput):
         Raises:
             ModevizError: there is no such point or direction, or as `forces`.
         """
-        if by not in get_args(By):
-            raise ModevizError(unknown("way to tell paths", by, get_args(By)))
+        check_choice("way to tell paths", by, get_args(By))
         solve = partial(self._loaded, load, frequency_hz)
         return ResponsePaths(point_paths(self.vehicle, point, direction, solve), by)
 
@@ -295,9 +268,7 @@ class Study(StudyOutput):
         Raises:
             ModevizError: as `ride`.
         """
-        need(self.vehicle, "mount group", self.vehicle.mount_groups)
-        results = self._tuned.ride(road)
-        return RateSensitivity(results, sensitivity(self._tuned.prepared(), results))
+        return rate_sensitivity(self._tuned, road)
 
     @one_thread()
     def optimise(
@@ -328,12 +299,7 @@ class Study(StudyOutput):
             SolveError: a design that cannot be solved, or none that keeps a mode where it has to be.
         """
         options = SearchOptions(starts, seed, budget, everywhere, robust, scheduler)
-        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
-        search = prepare_search(self.vehicle, chosen, rates, self.speed)
-        with cancelled_by_ctrl_c() as token:
-            self._tell("choosing where to start", 0.0)
-            search, optimum = find_best(search, rates, options, token, telling(self._tell, token))
-        return OptimiseResult(chosen, search, optimum)
+        return better_rates(self._tuned, problem, options, self._tell)
 
     @one_thread()
     def front(
@@ -358,12 +324,7 @@ class Study(StudyOutput):
             ModevizError: the problem has no such goals; else as `optimise`.
         """
         options = SearchOptions(starts, seed, budget)
-        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
-        pair = chosen_sides(self.vehicle, chosen, goals)
-        trade_off = prepare_trade_off(self.vehicle, chosen, pair, rates, self.speed)
-        with cancelled_by_ctrl_c() as token:
-            front = find_designs(trade_off, rates, options, token, self._tell)
-        return FrontResult(chosen, trade_off, front)
+        return designs_between(self._tuned, goals, problem, options, self._tell)
 
     @one_thread()
     def scatter(
@@ -391,31 +352,9 @@ class Study(StudyOutput):
         Raises:
             ModevizError: there is no such problem, road or point, or its goal does not scatter.
         """
-        need(self.vehicle, "mount group", self.vehicle.mount_groups)
         points = () if point is None else (point,)
         options = ScatterOptions(samples, tolerance or Tolerance(), seed, points, scheduler)
-        conditions = road_conditions(self.vehicle, road, self.speed)
-        chosen, rates = chosen_problem(self.vehicle, problem), self.rates.by_group
-        tell = partial(self._tell, "scattering")
-        with cancelled_by_ctrl_c() as token:
-            told = drive_many(
-                self.vehicle,
-                self._tuned.prepared,
-                rates,
-                conditions,
-                chosen,
-                options,
-                token,
-                tell,
-            )
-        return ScatterResult(told)
-
-    def _frequency(self, what: str, given: float | None) -> float:
-        """A frequency, Hz, or the end of the vehicle's band; raises ModevizError for none such."""
-        found = self.vehicle.highest_frequency if given is None else given
-        if not 0 < found < float("inf"):
-            raise ModevizError(f"{what}: found {found:g}, expected a frequency above zero")
-        return found
+        return scattered(self._tuned, problem, road, options, self._tell)
 
     def __repr__(self) -> str:
         return "\n".join(

@@ -39,6 +39,21 @@ class TunedVehicle:
                 raise ModevizError(f"found {value}, expected a finite speed above zero")
         self._speed = speed
 
+    def band_end(self, what: str, given: float | None) -> float:
+        """Return to where modes are asked for, Hz.
+
+        Args:
+            what: the frequency is called.
+            given: itself; None: the end of the vehicle's band.
+
+        Raises:
+            ModevizError: it is not above zero.
+        """
+        found = self.vehicle.highest_frequency if given is None else given
+        if not 0 < found < float("inf"):
+            raise ModevizError(f"{what}: found {found:g}, expected a frequency above zero")
+        return found
+
     def prepared_modes(self, below_hz: float = 0.0) -> PreparedModes:
         """Return it made ready for modes at least, those of its band or below a higher frequency."""
         if below_hz > self.vehicle.highest_frequency:

@@ -6,15 +6,17 @@ import numpy as np
 
 from modeviz.analysis.results import AXIS, Results
 from modeviz.analysis.wheel_peaks import wheel_peak_lines, wheel_peaks
-from modeviz.analysis.wheel_results import WheelResults
+from modeviz.analysis.wheel_results import WheelResults, solve_wheels
 from modeviz.errors import ModevizError
 from modeviz.report.records import Record, wheels_record
 from modeviz.report.tables import wheel_band, wheels_table
 from modeviz.ride.psd import amplitude_decibels
+from modeviz.study.conditions import has_ride, need
 from modeviz.study.displayed import Displayed
 from modeviz.study.names import axis_of, number_of, point_number
 from modeviz.study.notebook import block, charts, paragraphs, spectrum
 from modeviz.study.peaks import ResponsePeak, named_peaks
+from modeviz.study.tuned_vehicle import TunedVehicle
 from modeviz.text.markup import table, title
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
@@ -150,3 +152,13 @@ class WheelRide(Displayed):
             point_number(self.vehicle, point),
             axis_of(direction),
         )
+
+
+def wheel_ride(tuned: TunedVehicle) -> WheelRide:
+    """Return the response of a vehicle to its harmonic loads; errors as of `Study.wheels`."""
+    vehicle, rates = tuned.vehicle, tuned.rates.by_group
+    need(vehicle, "response point", vehicle.response_points)
+    need(vehicle, "wheel load", vehicle.harmonic_loads)
+    results = solve_wheels(tuned.prepared(), rates)
+    ride = tuned.ride(None) if has_ride(vehicle) else None
+    return WheelRide(vehicle.with_rates(rates), results, ride)
