@@ -57,7 +57,7 @@ def test_its_rates_have_no_more_digits_than_their_boxes_have_room_for(opened):
 def test_a_rate_of_many_digits_is_shown_to_four_and_stays_what_it_is(opened):
     app = opened(mounted_cabin())
     app.session.do(SetRate("A", "vertical", 139312.345))
-    row = app._mounts._folders["A"]._rows["vertical"]
+    row = app.screen.controls.mounts._folders["A"]._rows["vertical"]
     assert row._in_unit(app.session.state) == 139.3
     row._type(139.3)
     assert app.session.state.design.rates["A"].vertical == 139312.345
