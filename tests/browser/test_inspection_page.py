@@ -1,6 +1,7 @@
 """The page of bodies in a browser."""
 
 import base64
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from free_network import MASSES
 from looked_at import heaving_and_twisting, plate
 from network_files import network_unv
-from pages import wait_for
+from pages import wait_for, wait_until
 
 from modeviz.files import read_vehicle
 from modeviz.shapes.motion import DRAWN_FRACTION
@@ -41,6 +42,20 @@ class Given:
         return self.content
 
 
+@contextmanager
+def open_app(server, source):
+    """The page of bodies, which stand still and cast no shadows, of which each picture takes long."""
+    app = InspectionApp(server, source)
+    server.scene.configure_environment_map(None)
+    app.scene._stage._key.cast_shadow = False
+    app._animation._run(False)
+    app._animation._ran_before_still = None
+    try:
+        yield app
+    finally:
+        app.end()
+
+
 @pytest.fixture(scope="module")
 def app(server):
     subjects = [
@@ -48,10 +63,8 @@ def app(server):
         for name, kind in (("computed", float), ("measured", complex))
     ]
     source = Given(Content("plates", tuple(subjects), ("Nothing holds them.",)))
-    app = InspectionApp(server, source)
-    server.scene.configure_environment_map(None)
-    yield app
-    app.end()
+    with open_app(server, source) as app:
+        yield app
 
 
 @pytest.fixture(scope="module")
@@ -110,26 +123,27 @@ def choose(page, dropdown, option):
     page.get_by_role("option", name=option, exact=True).click()
 
 
-def field(page, label):
-    """The field of that label, the last of the page."""
-    return page.get_by_text(label, exact=True).last.locator("xpath=ancestor::*[.//input][1]//input")
+def fill(page, label, text, widget):
+    """Fills the field of that label, the last of the page, and waits until it is heard of."""
+    labelled = page.get_by_text(label, exact=True).last
+    labelled.locator("xpath=ancestor::*[.//input][1]//input").fill(text)
+    wait_until(page, lambda: widget.value == text)
 
 
 @pytest.fixture
 def new_vehicle(tmp_path, open_page):
-    """An empty folder's page."""
+    """An empty folder, and its page with what is in the fields on it."""
     server = open_server(port=0)
-    app = InspectionApp(server, VehicleFolder(tmp_path))
-    server.scene.configure_environment_map(None)
-    page = open_page(server, (1100, 800))
-    yield tmp_path, page
-    page.close()
-    app.end()
+    server.scene.configure_default_lights(cast_shadow=False)
+    with open_app(server, VehicleFolder(tmp_path)) as app:
+        page = open_page(server, (1100, 800))
+        yield tmp_path, page, app
+        page.close()
     server.stop()
 
 
 def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
-    folder, page = new_vehicle
+    folder, page, app = new_vehicle
     geometry, modes = network_unv(n_modes=0), network_unv().replace("2411", "9999", 1)
     drop(page, {"shape.unv": geometry, "modes.unv": modes})
     page.get_by_text("shape.unv, modes.unv").wait_for()
@@ -140,8 +154,7 @@ def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
 
     choose(page, "Units", "mm-t-s")
     page.get_by_text("Units: mm-t-s.").wait_for(state="attached")
-    field(page, "Attachments").fill("left=11; right=12")
-    page.wait_for_timeout(1000)
+    fill(page, "Attachments", "left=11; right=12", app._import._fields.attach)
     page.get_by_role("button", name="Put it into the vehicle").click()
     page.get_by_text("Body shape: in the vehicle").wait_for()
     (body,) = read_vehicle(folder).bodies
@@ -151,14 +164,13 @@ def test_dropped_files_become_a_body_of_the_vehicle(new_vehicle):
 
 
 def test_response_points_are_added_to_the_vehicle_on_the_page(new_vehicle):
-    folder, page = new_vehicle
+    folder, page, app = new_vehicle
     drop(page, {"shape.unv": network_unv()})
     page.get_by_text("shape.unv", exact=True).wait_for()
     assert not page.get_by_role("button", name="Add the response point").is_visible()
     choose(page, "Units", "mm-t-s")
     page.get_by_text("Units: mm-t-s.").wait_for(state="attached")
-    field(page, "Attachments").fill("left=11; right=12")
-    page.wait_for_timeout(1000)
+    fill(page, "Attachments", "left=11; right=12", app._import._fields.attach)
     page.get_by_role("button", name="Put it into the vehicle").click()
     page.get_by_text("Body shape: in the vehicle").wait_for()
 
@@ -166,8 +178,7 @@ def test_response_points_are_added_to_the_vehicle_on_the_page(new_vehicle):
     add.click()
     page.locator(".bad").get_by_text("found no name").wait_for()
     choose(page, "At", "right")
-    field(page, "Name").fill("seat")
-    page.wait_for_timeout(1000)
+    fill(page, "Name", "seat", app._points._name)
     add.click()
     page.get_by_text("Response point seat: in the vehicle.").wait_for()
     vehicle = read_vehicle(folder)
@@ -177,12 +188,12 @@ def test_response_points_are_added_to_the_vehicle_on_the_page(new_vehicle):
 
 
 def test_files_that_make_no_body_say_why_on_the_page(new_vehicle):
-    folder, page = new_vehicle
+    folder, page, app = new_vehicle
     drop(page, {"held.unv": network_unv(first=7)})
     page.get_by_text("held.unv", exact=True).wait_for()
     page.get_by_role("combobox", name="Units").click()
     page.get_by_role("option", name="mm-t-s").click()
-    page.wait_for_timeout(500)
+    wait_until(page, lambda: app._import._fields.chosen_units)
     page.get_by_role("button", name="Put it into the vehicle").click()
     page.locator(".bad").get_by_text("expected the six rigid ones of a free structure").wait_for()
     assert not any(folder.iterdir())
