@@ -14,6 +14,19 @@ BROWSER = Path(__file__).parent / "browser"
 LONG = {"builtin_truck", "prepared_truck", "truck_modes", "subprocess"}
 """What a module of tests has imported when its tests take seconds rather than milliseconds."""
 
+HALF_A_MINUTE = {
+    "test_app",
+    "test_connecting",
+    "test_doors",
+    "test_mounts",
+    "test_notebook_page",
+    "test_optimise_page",
+    "test_pictures",
+    "test_state_link_page",
+    "test_staying_up",
+}
+"""Files of browser tests that take so long, however few tests are in them."""
+
 
 def pytest_configure():
     """Ctrl+C works as on a terminal, also where tests run behind a script that has it ignored."""
@@ -30,9 +43,9 @@ def pytest_collection_modifyitems(items):
     of_browser = {path for path in n_tests if BROWSER in path.parents}
 
     def rank(item):
-        is_long = not LONG.isdisjoint(vars(item.module))
         if item.path in of_browser:
-            return True, not is_long, -n_tests[item.path]
+            return True, item.path.stem not in HALF_A_MINUTE, -n_tests[item.path]
+        is_long = not LONG.isdisjoint(vars(item.module))
         return False, is_long
 
     items.sort(key=rank)
