@@ -11,6 +11,7 @@ from charts import at_lines, has_lines
 from mount_controls import box, drag, open_folder, position, thumb, type_rate
 from pages import CLOSE_NOTICES, has_beside, send, wait_for, wait_until
 from session_commands import Alter, Become
+from shared_preparations import shared_preparations
 
 from modeviz.analysis.exact_check import Check, check_exactly
 from modeviz.analysis.modal_results import solve_modal
@@ -44,6 +45,12 @@ IN_PICTURE = """a.corners.every((corner) => {
   return Math.abs(x) < 1 && Math.abs(y) < 1;
 })"""
 TITLE = "document.querySelector('.mv .title')?.textContent"
+
+
+@pytest.fixture(scope="module", autouse=True)
+def prepared_once():
+    with shared_preparations():
+        yield
 
 
 @pytest.fixture(scope="module")
