@@ -16,6 +16,7 @@ from folders import one_of_everything
 
 from modeviz.analysis.preparation import prepare
 from modeviz.cli import main
+from modeviz.compute import threads
 from modeviz.errors import VehicleError
 from modeviz.files import read_vehicle, write_vehicle
 from modeviz.files.limits import check_size
@@ -314,17 +315,21 @@ def test_a_table_without_line_ends_is_refused_in_a_sentence(complaint, folder):
 
 
 @pytest.mark.parametrize(("n_mounts", "n_points", "n_forces"), [(40, 1, 1), (1, 100, 1), (1, 20, 60)])
-def test_a_preparation_takes_the_memory_that_was_estimated(tmp_path, n_mounts, n_points, n_forces):
+def test_a_preparation_takes_the_memory_that_was_estimated(
+    monkeypatch, tmp_path, n_mounts, n_points, n_forces
+):
+    """On one thread, for how many receptances are at hand on several depends on who else computes."""
     text = HEAD + 'force = "N"\n' + BODY.format(0, 1) + GROUP
     tables = ((MOUNT, n_mounts), (POINT, n_points), (FORCE, n_forces))
     text += "".join(table.format(i) for table, n in tables for i in range(n))
     vehicle = read_vehicle(written(tmp_path / "a", text))
     estimated = 16 * counted(vehicle).receptances
+    monkeypatch.setattr(threads, "N_THREADS", 1)
     tracemalloc.start()
     prepare(vehicle)
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert estimated / 10 < peak < 2 * estimated  # some at once, as threads happen to run
+    assert estimated / 10 < peak < 1.5 * estimated
 
 
 def road_tables(n_roads: int) -> str:
