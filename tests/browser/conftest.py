@@ -1,3 +1,4 @@
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -5,9 +6,10 @@ from pages import wait_for
 from playwright.sync_api import Browser, Page
 
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.pictures.headless import chromium
+from modeviz.viewer.pictures import headless
 
 TIMEOUT_MS = 60_000
+SCENE_ALONE = ("--disable-gpu-rasterization", "--disable-gpu-compositing")
 
 
 def pytest_collection_modifyitems(items):
@@ -18,7 +20,11 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session")
 def browser():
-    with chromium() as browser:
+    """One that has Mesa draw the scene alone, for in software it draws the rest of a page slowly."""
+    with ExitStack() as opened:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(headless, "FLAGS", (*headless.FLAGS, *SCENE_ALONE))
+            browser = opened.enter_context(headless.chromium())
         yield browser
 
 
