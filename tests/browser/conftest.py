@@ -2,7 +2,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from pages import wait_for
+from pages import TENTHS, wait_for
 from playwright.sync_api import Browser, Page
 
 from modeviz.viewer.page.server import open_server
@@ -62,6 +62,25 @@ def open_page(browser: Browser, opened_pages):
         return page
 
     return open_page
+
+
+@pytest.fixture
+def show(browser: Browser):
+    """Opens an address in a browser without cookies, where nothing is waited for."""
+    contexts = []
+
+    def show(address: str) -> Page:
+        size = {"width": 480, "height": 360}
+        contexts.append(browser.new_context(viewport=size, ignore_https_errors=True))
+        page = contexts[-1].new_page()
+        page.set_default_timeout(TIMEOUT_MS)
+        page.add_init_script(TENTHS)
+        page.goto(address)
+        return page
+
+    yield show
+    for context in contexts:
+        context.close()
 
 
 @pytest.fixture(scope="module")

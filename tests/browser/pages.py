@@ -11,11 +11,24 @@ CLOSE_NOTICES = (
     "document.querySelectorAll('.mantine-Notification-closeButton').forEach((b) => b.click())"
 )
 
+TENTHS = "window.tenths = 0; setInterval(() => window.tenths++, 100)"
+"""Counts tenths of seconds as a page has them, which are late where a machine is busy."""
+
+NOTICE = "document.getElementById('modeviz-connection')?.textContent"
+"""What a page that is not connected says of it."""
+
 
 def wait_for(page: Page, expression: str, **arguments: Any) -> Any:
     """Waits until a JavaScript expression of `a`, the arguments, is true, and returns its value."""
     handle = page.wait_for_function(f"a => {expression}", arg=arguments, polling=100)
     return handle.json_value()
+
+
+def said_in_time(page: Page) -> str:
+    """What a page that counts `TENTHS` says is wrong, within 5 s by that."""
+    said, tenths = wait_for(page, f"{NOTICE} && [{NOTICE}, window.tenths]")
+    assert tenths < 50
+    return said
 
 
 def has_beside(page: Page, width: int) -> bool:

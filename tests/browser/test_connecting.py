@@ -3,14 +3,13 @@
 import re
 
 import pytest
-from pages import wait_for
+from pages import NOTICE, said_in_time, wait_for
 from small_proxy import proxy
 from visitors import TOKEN
 
 from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.server import open_server
 
-NOTICE = "document.getElementById('modeviz-connection')?.textContent"
 SEEN = "document.elementFromPoint(innerWidth / 2, innerHeight / 2).textContent"
 
 
@@ -28,23 +27,6 @@ def locked():
     server.stop()
 
 
-@pytest.fixture
-def show(browser):
-    """Opens an address, where nothing is waited for."""
-    contexts = []
-
-    def show(address):
-        contexts.append(browser.new_context(viewport={"width": 480, "height": 360}))
-        page = contexts[-1].new_page()
-        page.set_default_timeout(60_000)
-        page.goto(address)
-        return page
-
-    yield show
-    for context in contexts:
-        context.close()
-
-
 def without_upgrade(path, headers):
     return path, {k: v for k, v in headers.items() if k not in ("Upgrade", "Connection")}
 
@@ -55,13 +37,6 @@ def silent_to_sockets(path, headers):
 
 def silent_to_all_but_the_page(path, headers):
     return None if "Upgrade" in headers or WHY in path else (path, headers)
-
-
-def said_in_time(page):
-    """What a page says is wrong, within 5 s after it was asked for."""
-    said, passed = wait_for(page, f"{NOTICE} && [{NOTICE}, performance.now()]")
-    assert passed < 5000.0
-    return said
 
 
 def other_host(port):

@@ -2,14 +2,13 @@
 
 import pytest
 from mount_controls import box, open_folder, position, thumb
-from pages import wait_for, wait_until
+from pages import NOTICE, wait_for, wait_until
 from serving_cabin import key_of, serving
 
 from modeviz.journal.keys import digest_of
 from modeviz.viewer.app import App
 from modeviz.viewer.serving import open_session
 
-NOTICE = "document.getElementById('modeviz-connection')?.textContent"
 STATUS = "[...document.querySelectorAll('.mv .status')].map(e => getComputedStyle(e).display)"
 
 
