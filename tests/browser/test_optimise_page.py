@@ -167,6 +167,7 @@ def test_bounds_and_ratios_of_a_group_are_changed_on_the_page(app, page):
 
 
 def test_mounts_are_moved_by_a_search_within_bounds_of_the_page(app, page):
+    app.session.do(AlterPlan(n_starts=1))
     unfold(page, "Places of these mounts", "Move z, mm")
     boxes(page, "Move z, mm").nth(0).fill("-20")
     boxes(page, "Move z, mm").nth(1).fill("30")
