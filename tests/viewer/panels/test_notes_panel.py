@@ -3,6 +3,7 @@
 from contextlib import contextmanager
 
 import pytest
+from guests import heard_until
 from html_documents import Document
 from journal_studies import KEY, opened
 from mounted_cabin import mounted_cabin
@@ -103,8 +104,9 @@ def test_two_pages_that_remove_notes_at_once_remove_those_that_were_clicked(app)
 
 def test_an_empty_note_is_refused(app):
     before = app.screen.controls.notes.notes
-    with page_of(app) as (_, add):
+    with page_of(app) as (page, add):
         add("  ")
+        heard_until(page, lambda told: "Not noted" in str(told))
         add("something")
         wait_until(lambda: len(app.screen.controls.notes.notes) == len(before) + 1)
     assert app.screen.controls.notes.notes[-1].text == "something"

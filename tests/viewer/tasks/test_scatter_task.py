@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from cabin_session import SOON, Watcher, open_session
 from session_commands import Alter, AlterPlan
+from visitors import wait_until
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError, SolveError
@@ -69,8 +70,8 @@ def test_the_page_is_drawn_again_when_the_band_is_there(session, scatterer):
     n_before = len(session.answers)
     scatterer.start(400)
     scatterer.finish()
+    wait_until(lambda: len(session.answers) > n_before, SOON)
     assert session.wait(SOON)
-    assert len(session.answers) > n_before
     assert session.answers[-1].is_detailed
 
 
