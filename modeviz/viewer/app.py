@@ -16,6 +16,7 @@ from modeviz.viewer.page.server import Server
 from modeviz.viewer.page.theme import dress
 from modeviz.viewer.scene.mount_handle import Dragged
 from modeviz.viewer.scene.scene import Scene
+from modeviz.viewer.screen.page_parts import PageParts
 from modeviz.viewer.screen.screen import Screen
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.decisions import DragMounts
@@ -88,14 +89,16 @@ class App:
             lambda: self.screen.controls.notes.notes,
         )
         self.screen: Screen = Screen(
-            server,
-            self.session,
-            self.scene,
-            self.tasks,
-            self.documents,
-            self.keeping,
-            opening,
-            dark,
+            PageParts(
+                server,
+                self.session,
+                self.scene,
+                self.tasks,
+                self.documents,
+                self.keeping,
+                opening,
+                dark,
+            )
         )
 
     def start(self, progress: Callable[[float], None] | None = None) -> None:

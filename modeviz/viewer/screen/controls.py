@@ -2,11 +2,8 @@
 
 import viser
 
-from modeviz.viewer.documents import Documents
-from modeviz.viewer.keeping import Keeping
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.layout import NARROW, WIDE
-from modeviz.viewer.page.server import Server
 from modeviz.viewer.panels.data_files import DataPanel
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener
@@ -20,12 +17,9 @@ from modeviz.viewer.panels.status import StatusPanel
 from modeviz.viewer.panels.trade_off import TradeOffPanel
 from modeviz.viewer.panels.variants import VariantsPanel
 from modeviz.viewer.panels.view import ViewPanel
-from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.scene.stage import DARK, LIGHT
+from modeviz.viewer.screen.page_parts import PageParts
 from modeviz.viewer.session.answers import Solved
-from modeviz.viewer.session.opening import Opening
-from modeviz.viewer.session.session import Session
-from modeviz.viewer.tasks.tasks import Tasks
 
 WIDTHS = {WIDE: 376, NARROW: 300}
 """Pixels; see `layout`."""
@@ -34,32 +28,10 @@ WIDTHS = {WIDE: 376, NARROW: 300}
 class Controls:
     """The tabs of the column, what is above them and below."""
 
-    def __init__(
-        self,
-        server: Server,
-        session: Session,
-        scene: Scene,
-        tasks: Tasks,
-        documents: Documents,
-        keeping: Keeping,
-        hotkeys: Hotkeys,
-        opening: Opening,
-        dark: bool,
-    ) -> None:
-        """Builds them.
-
-        Args:
-            server: of the pages.
-            session: what is changed.
-            scene: how it is looked at.
-            tasks: what is computed beside it.
-            documents: what can be taken away.
-            keeping: where pictures are kept.
-            hotkeys: undo and redo are added.
-            opening: with earlier runs, and remarks to be shown.
-            dark: whether pages are dark.
-        """
-        gui = server.gui
+    def __init__(self, parts: PageParts, hotkeys: Hotkeys) -> None:
+        """Builds them; undo and redo are added to the keys."""
+        gui, session, scene, tasks = parts.server.gui, parts.session, parts.scene, parts.tasks
+        documents, keeping, dark = parts.documents, parts.keeping, parts.dark
         gui.main_panel.dock_left()
         self.history: HistoryRow = HistoryRow(gui, session, hotkeys)
         self.opener: FolderOpener = FolderOpener(gui)
@@ -74,14 +46,14 @@ class Controls:
             self.trade_off: TradeOffPanel = TradeOffPanel(gui, session, tasks.front)
             self.scatter: ScatterPanel = ScatterPanel(gui, session, tasks.scatter)
             self.earlier: EarlierRuns = EarlierRuns(
-                gui, session, tasks.front, tasks.scatter, opening.runs
+                gui, session, tasks.front, tasks.scatter, parts.opening.runs
             )
         with tabs.add_tab("View", viser.Icon.EYE):
             self.view: ViewPanel = ViewPanel(gui, session, scene.look, documents.link)
         with tabs.add_tab("Pictures", viser.Icon.CAMERA):
             self.pictures: PicturePanel = PicturePanel(
                 gui,
-                server,
+                parts.server,
                 DARK if dark else LIGHT,
                 documents.subject,
                 lambda: scene.driver.is_real,
@@ -91,7 +63,7 @@ class Controls:
                 lambda png, prefix: keeping.keep_picture(png, f"{prefix}{documents.caption()}"),
             )
             self.data: DataPanel = DataPanel(gui, session, self.pictures.downloads, documents.solved)
-        self.status: StatusPanel = StatusPanel(gui, session.vehicle.notes, opening.remarks)
+        self.status: StatusPanel = StatusPanel(gui, session.vehicle.notes, parts.opening.remarks)
 
     def show_check(self, solved: Solved) -> None:
         """Says what is known by now of an answer that is drawn already."""

@@ -2,67 +2,39 @@
 
 from functools import partial
 
-from modeviz.viewer.documents import Documents
-from modeviz.viewer.keeping import Keeping
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.layout import Layout
-from modeviz.viewer.page.server import Server
 from modeviz.viewer.page.title import Title
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import step_mode
 from modeviz.viewer.panels.review.panel import ReviewPanel
-from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.screen import controls, motion, results
 from modeviz.viewer.screen.controls import Controls
 from modeviz.viewer.screen.motion import MotionCard
+from modeviz.viewer.screen.page_parts import PageParts
 from modeviz.viewer.screen.results import Results
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.decisions import Swap
 from modeviz.viewer.session.design import variant_name
-from modeviz.viewer.session.opening import Opening
-from modeviz.viewer.session.session import Session
-from modeviz.viewer.tasks.tasks import Tasks
 
 
 class Screen:
     """The panels around the scene, and their keys."""
 
-    def __init__(
-        self,
-        server: Server,
-        session: Session,
-        scene: Scene,
-        tasks: Tasks,
-        documents: Documents,
-        keeping: Keeping,
-        opening: Opening,
-        dark: bool,
-    ) -> None:
-        """Builds all panels.
-
-        Args:
-            server: of the pages.
-            session: what they show and change.
-            scene: in the middle.
-            tasks: what is computed beside the session.
-            documents: what can be taken away.
-            keeping: what of all this is kept.
-            opening: with which the session was opened.
-            dark: whether pages are dark.
-        """
+    def __init__(self, parts: PageParts) -> None:
+        """Builds all panels."""
+        server, session, scene = parts.server, parts.session, parts.scene
         self._server, self._session = server, session
         self._title = Title(server)
         gui = server.gui
         self.hotkeys: Hotkeys = Hotkeys(gui)
-        self.controls: Controls = Controls(
-            server, session, scene, tasks, documents, keeping, self.hotkeys, opening, dark
-        )
+        self.controls: Controls = Controls(parts, self.hotkeys)
         self.guide: Guide = Guide(server, self.hotkeys)
-        self.review: ReviewPanel = ReviewPanel(server, scene.following.switch, keeping.title)
+        self.review: ReviewPanel = ReviewPanel(server, scene.following.switch, parts.keeping.title)
         server.visitors.on_change(scene.following.look_again)
-        self.results: Results = Results(gui, session, tasks, dark)
+        self.results: Results = Results(gui, session, parts.tasks, parts.dark)
         self.motion: MotionCard = MotionCard(
-            gui, session, scene.driver, opening.animation, keeping.keep_view
+            gui, session, scene.driver, parts.opening.animation, parts.keeping.keep_view
         )
         Layout(
             server,
