@@ -15,7 +15,6 @@ from cabin_problem import PROBLEM
 from engine_on_mounts import limited_engine
 from four_cylinder import on_subframe
 from mounted_cabin import mounted_cabin
-from shared_preparations import shared_preparations
 from two_sheets import joined, mount_stiffness, sheets
 
 import modeviz as mv
@@ -104,18 +103,17 @@ def keys(value) -> set[str]:
     return set(value).union(*inner)
 
 
-@pytest.fixture(scope="module")
-def prepared_once():
-    with shared_preparations():
-        yield
-
-
-@pytest.mark.usefixtures("prepared_once")
-@pytest.mark.parametrize("command", ["modes", "psd", "wheels", "forces", "paths"])
-def test_json_has_the_keys_that_the_readme_documents(command, capsys: pytest.CaptureFixture[str]):
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [("modes", "pickup"), *((command, "cabin") for command in ("psd", "wheels", "forces", "paths"))],
+)
+def test_json_has_the_keys_that_the_readme_documents(
+    command, name, small: Mapping[str, str], capsys: pytest.CaptureFixture[str]
+):
     (documented,) = re.findall(rf"^{command} +(\{{.*?)^(?=\w)", README, re.DOTALL | re.MULTILINE)
     (rates,) = re.findall(r"^rates +(\{.*?)^```", README, re.DOTALL | re.MULTILINE)
-    assert main([command, str(builtin_vehicle()), "--json"]) == 0
+    folders = {"pickup": str(builtin_vehicle()), **small}
+    assert main([command, folders[name], "--json"]) == 0
     printed = keys(json.loads(capsys.readouterr().out))
     assert printed == set(re.findall(r'"(\w+)"', documented + rates))
 
