@@ -156,6 +156,17 @@ def test_what_damps_turning_may_be_moved_and_turned(goal):
     assert_derivatives_hold(search_of(damped, goal, (moved,)))
 
 
+def test_what_damps_the_turning_of_a_body_that_bends_may_be_moved_and_turned():
+    machine = replace(mounted_machine(), **BAND, mode_damping=())
+    engine, foot = machine.mount_groups
+    (mount,) = foot.mounts
+    damped = replace(mount, rotational_damping=np.array([300.0, 800.0, 50.0]))
+    vehicle = replace(machine, mount_groups=(engine, replace(foot, mounts=(damped,))))
+    moved = DesignGroup("F", (), offsets={"x": (0.0, 0.1)}, angles={"x": (-0.4, 0.4), "z": (-0.3, 0.3)})
+    shaken = (Performance(np.array([9.0, 21.0]), wheel_loads=("firing",)),)
+    assert_derivatives_hold(search_of(vehicle, "accelerations", (moved,), performance=shaken))
+
+
 @pytest.fixture(scope="module")
 def cab(tmp_path_factory):
     """A cab on struts whose dampers are tuned along z, those in front with some of their own across."""
