@@ -4,13 +4,11 @@ from collections import Counter
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from sqlite3 import Connection
-from typing import TypeVar
+from typing import Any
 
 Write = Callable[[Connection], object]
 
-AnyWrite = TypeVar("AnyWrite")
-
-Rework = Callable[[Sequence[AnyWrite]], Sequence[tuple[Hashable, Write]]]
+Rework = Callable[[Sequence[Any]], Sequence[tuple[Hashable, Write]]]
 
 LARGEST = 64_000_000
 """Bytes of large things that wait while nothing can be written: the oldest is lost for one more."""
@@ -73,7 +71,7 @@ class Queue:
                 del self._waiting[name]
         self._taken = {}
 
-    def rework(self, owner: str, kind: type[AnyWrite], rework: Rework[AnyWrite]) -> None:
+    def rework(self, owner: str, kind: type, rework: Rework) -> None:
         """Puts others in the place of an owner's writes of a class, where the first of them was.
 
         Args:
@@ -81,11 +79,11 @@ class Queue:
             kind: of writes.
             rework: makes writes of these, the first one first, that come to the same, with their keys.
         """
-        found: dict[Hashable, AnyWrite] = {}
-        for name, each in self._waiting.items():
-            write = each.write
-            if each.owner == owner and isinstance(write, kind) and name not in self._taken:
-                found[name] = write
+        found = {
+            name: each.write
+            for name, each in self._waiting.items()
+            if each.owner == owner and isinstance(each.write, kind) and name not in self._taken
+        }
         if not found:
             return
         first = next(iter(found))

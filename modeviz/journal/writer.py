@@ -10,7 +10,7 @@ from sqlite3 import Connection
 
 from modeviz.errors import reason
 from modeviz.journal.opening import open_to_write
-from modeviz.journal.waiting import AnyWrite, Queue, Rework, Waiting, Write
+from modeviz.journal.waiting import Queue, Rework, Waiting, Write
 
 MOST_AT_ONCE = 100
 """Writes in one transaction: more would keep others who write waiting."""
@@ -86,7 +86,7 @@ class Writer:
                 self._waiting.lose_oldest()
             self._changed.notify_all()
 
-    def rework(self, owner: str, kind: type[AnyWrite], rework: Rework[AnyWrite]) -> None:
+    def rework(self, owner: str, kind: type, rework: Rework) -> None:
         """Puts others in the place of what waits; see `Queue.rework`."""
         with self._changed:
             self._waiting.rework(owner, kind, rework)
