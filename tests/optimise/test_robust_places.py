@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from test_carried_places import TWO, on_the_engine
 from test_places import (
     ENGINE,
     RUBBER,
@@ -62,3 +63,7 @@ def test_a_robust_optimum_of_places_is_no_worse_than_the_one_as_drawn():
     assert best.converged
     assert best.value <= again.value(found.x) * (1 + 1e-9)
     assert best.placements
+
+
+def test_the_mass_of_an_absorber_that_is_moved_does_not_scatter():
+    assert_derivatives_hold(robustly(search_of(on_the_engine(), "accelerations", (TWO,))))
