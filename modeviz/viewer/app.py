@@ -10,7 +10,7 @@ from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.documents import Documents
 from modeviz.viewer.keeping import Keeping
-from modeviz.viewer.page.binding import READ_WITHIN
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.failures import Failures
 from modeviz.viewer.page.server import Server
 from modeviz.viewer.page.theme import dress
@@ -196,7 +196,5 @@ class App:
             self.session.do(DragMounts(dragged.group, dragged.placement, dragged.drag))
         except ModevizError as refusal:
             if dragged.is_over and dragged.client is not None:
-                dragged.client.add_notification(
-                    "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
-                )
+                refuse(dragged.client, str(refusal), is_passing=True)
         self.scene.place(self.session.state)

@@ -1,7 +1,10 @@
-"""Notices on pages of what is wrong: each is there once, however often it is said."""
+"""Notices on pages: of what is wrong, each there once however often it is said, and of refusals."""
 
 import viser
 from viser import _messages
+
+READ_WITHIN = 8.0
+"""s: how long the word on a refused value stays."""
 
 
 def alert(client: viser.ClientHandle, name: str, title: str, text: str) -> None:
@@ -21,6 +24,18 @@ def alert(client: viser.ClientHandle, name: str, title: str, text: str) -> None:
 def withdraw(client: viser.ClientHandle, name: str) -> None:
     """Takes a notice off a page, if it is there."""
     client._websock_connection.queue_message(_messages.RemoveNotificationMessage(_name(name)))
+
+
+def refuse(client: viser.ClientHandle, why: str, is_passing: bool = False) -> None:
+    """Says on a page why what it asked for is not done.
+
+    Args:
+        client: the page.
+        why: in words.
+        is_passing: whether it is gone soon, as of values that are moved on.
+    """
+    seconds = READ_WITHIN if is_passing else None
+    client.add_notification("Not possible", why, color="red", auto_close_seconds=seconds)
 
 
 def _name(name: str) -> str:

@@ -12,6 +12,7 @@ from typing import Any, Generic, Protocol, TypeVar
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.server import tell_mistake
 from modeviz.viewer.page.write_back import WriteBack
 from modeviz.viewer.session.state import State
@@ -20,9 +21,6 @@ Read = Callable[[State], Any]
 Write = Callable[[Any], None]
 
 S = TypeVar("S", covariant=True)
-
-READ_WITHIN = 8.0
-"""s: how long the word on a refused value stays."""
 
 
 class HasState(Protocol[S]):
@@ -87,9 +85,7 @@ class Binding(Generic[S]):
             try:
                 self._write(asked)
             except ModevizError as refusal:
-                client.add_notification(
-                    "Not possible", str(refusal), color="red", auto_close_seconds=READ_WITHIN
-                )
+                refuse(client, str(refusal), is_passing=True)
             finally:  # also of our mistake
                 self._known = self._read(self._owner.state)
                 if self._known != asked:  # else a newer value that is on its way here would be lost

@@ -8,6 +8,7 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import assign, name_of
 from modeviz.viewer.page.html import hidden
 
@@ -64,5 +65,4 @@ class NamedButtons(Generic[Name]):
             self._press(name)
         except ModevizError as refusal:
             if client is not None:
-                text = f"{sentence_case(str(refusal))}."
-                client.add_notification("Not possible", text, color="red")
+                refuse(client, f"{sentence_case(str(refusal))}.")

@@ -7,6 +7,7 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import GuiModalHandle
 from modeviz.viewer.page.html import block
 from modeviz.viewer.page.looking import leave_to_control
@@ -42,4 +43,4 @@ def _answer(
     try:
         do()
     except ModevizError as error:
-        client.add_notification("Not possible", str(error), color="red")
+        refuse(client, str(error))

@@ -11,6 +11,7 @@ from modeviz.errors import ModevizError
 from modeviz.report.records import Record
 from modeviz.text.wording import number, significant
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
 from modeviz.viewer.session.cursor import has_ride
@@ -73,7 +74,7 @@ class ScatterPanel:
             self._scatterer.start(round(self._count.value))
         except ModevizError as error:
             if event.client:
-                event.client.add_notification("Not possible", str(error), color="red")
+                refuse(event.client, str(error))
 
 
 def _text(job: Job[Built, ScatterOutcome], is_current: bool) -> list[str]:

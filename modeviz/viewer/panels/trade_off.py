@@ -12,6 +12,7 @@ from modeviz.optimise.trade_off import ParetoPoint
 from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.axes import Axis
 from modeviz.text.wording import sentence_case, significant
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, heading, span
 from modeviz.viewer.page.named_buttons import NamedButtons
@@ -86,7 +87,7 @@ class TradeOffPanel:
             self._trader.start(self._names.get(self._between.value, ""))
         except ModevizError as error:
             if event.client:
-                event.client.add_notification("Not possible", str(error), color="red")
+                refuse(event.client, str(error))
 
     def _chart(self, job: Job[Goals, Designs]) -> str:
         """The designs where both goals have them, as points that can be clicked."""

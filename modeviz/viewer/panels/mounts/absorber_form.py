@@ -12,7 +12,8 @@ from modeviz.text.wording import number, significant, told_apart
 from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
-from modeviz.viewer.page.binding import READ_WITHIN, Binding, Write, show_all
+from modeviz.viewer.page.alerts import refuse
+from modeviz.viewer.page.binding import Binding, Write, show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
@@ -155,9 +156,7 @@ class AbsorberForm:
             self._put(AbsorberDraft())
         except ModevizError as error:
             if client:
-                client.add_notification(
-                    "Not possible", str(error), color="red", auto_close_seconds=READ_WITHIN
-                )
+                refuse(client, str(error), is_passing=True)
 
     def _solved(self) -> Solved:
         if self._session.answer is None:

@@ -8,6 +8,7 @@ import viser
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.hotkeys import Hotkeys
 from modeviz.viewer.page.question import ask
@@ -79,4 +80,4 @@ def _go(step: Callable[[bool], None], client: viser.ClientHandle | None) -> None
             client.add_notification("Not yours", f"{sentence_case(str(refusal))}.", color="orange")
     except ModevizError as error:
         if client is not None:
-            client.add_notification("Not possible", str(error), color="red")
+            refuse(client, str(error))

@@ -8,6 +8,7 @@ import viser
 
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.vehicle.default_problem import problems
+from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
@@ -103,7 +104,7 @@ class OptimisePanel:
             self._presses[button]()
         except ModevizError as error:
             if event.client:
-                event.client.add_notification("Not possible", str(error), color="red")
+                refuse(event.client, str(error))
 
 
 def offered(look: SearchStatus | None, state: State) -> tuple[str, ...]:
