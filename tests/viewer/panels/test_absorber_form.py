@@ -5,6 +5,8 @@ from mounted_cabin import mounted_cabin
 from opened_app import SOON
 
 from modeviz.analysis.absorbers import effective_mass
+from modeviz.vehicle.absorber import Absorber
+from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.panels.mounts.absorber_draft import AbsorberDraft, places
 from modeviz.viewer.session.commands.decisions import SetRate
@@ -64,3 +66,13 @@ def test_a_rate_of_many_digits_is_shown_to_four_and_stays_what_it_is(opened):
     row._type(139.25)
     assert app.session.state.design.rates["A"].vertical == 139250
     assert row._in_unit(app.session.state) == 139.25
+
+
+def test_of_an_absorber_of_the_file_its_mass_and_motion_are_said(opened):
+    tva = Absorber("tva", "cab", (1.0, 0.2, 1.4), 6.25, 12.0, 0.08)
+    app = opened(with_absorbers(mounted_cabin(), [tva]))
+    assert app.session.wait(SOON)
+    text = app.screen.controls.mounts._folders["tva"]._absorber._text
+    assert "6.25 kg, as in the vehicle's file" in text.content
+    assert "12.00 Hz vertical, 8.0 % of critical" in text.content
+    assert app.screen.controls.mounts._folders["A"]._absorber is None

@@ -265,9 +265,29 @@ class AbsorberDetails:
 
     def show(self, mass: float, rates: MountRates) -> None:
         """Says how its mass moves on its spring, were its body still."""
-        every = zip(DIRECTIONS, rates.as_tuple(), reversed(rates.damping()), strict=True)
-        told = (_motion(mass, k, c, direction) for direction, k, c in every if k)
-        assign(self._text, content=block(span(f"On its spring {'; '.join(told)}", "dim")))
+        assign(self._text, content=block(span(f"On its spring {_motions(mass, rates)}", "dim")))
+
+
+class GivenAbsorber:
+    """What an absorber of the vehicle's file weighs, and how its mass moves on its spring."""
+
+    bindings: tuple[Binding[State], ...] = ()
+    """None: it is read."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        """Builds an empty line."""
+        self._text = gui.add_html("")
+
+    def show(self, mass: float, rates: MountRates) -> None:
+        """Says so."""
+        words = f"{significant(mass)} kg, as in the vehicle's file; on its spring "
+        assign(self._text, content=block(span(words + _motions(mass, rates), "dim")))
+
+
+def _motions(mass: float, rates: MountRates) -> str:
+    """How a mass moves on springs along each direction that has one."""
+    every = zip(DIRECTIONS, rates.as_tuple(), reversed(rates.damping()), strict=True)
+    return "; ".join(_motion(mass, k, c, direction) for direction, k, c in every if k)
 
 
 def _motion(mass: float, stiffness: float, damping: float, direction: str) -> str:

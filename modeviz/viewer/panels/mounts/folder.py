@@ -5,13 +5,16 @@ from html import escape
 import viser
 
 from modeviz.report.rate_fields import sections
+from modeviz.vehicle.absorber_names import mass_name
+from modeviz.vehicle.bodies import RigidBody
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import Rates
+from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import show_all
 from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.html import block, span
 from modeviz.viewer.page.write_back import WriteBack
-from modeviz.viewer.panels.mounts.absorber_form import AbsorberDetails
+from modeviz.viewer.panels.mounts.absorber_form import AbsorberDetails, GivenAbsorber
 from modeviz.viewer.panels.mounts.details import Details
 from modeviz.viewer.panels.mounts.effects import Effects, in_a_sentence
 from modeviz.viewer.panels.mounts.rows import RateRow
@@ -33,8 +36,7 @@ class GroupFolder:
             gui.add_html(f'<div class="mv-rates" data-group="{escape(group.name)}"></div>')
             self._rows = self._add_rows(gui, session)
             self._details = Details(gui, session, group, signs)
-            is_added = session.state.design.alterations.absorber(group.name) is not None
-            self._absorber = AbsorberDetails(gui, session, group) if is_added else None
+            self._absorber = self._add_absorber(gui, session)
         of_rows = [binding for row in self._rows.values() for binding in row.bindings]
         of_absorber = self._absorber.bindings if self._absorber else ()
         self._bindings = [*of_rows, *self._details.bindings, *of_absorber]
@@ -47,6 +49,14 @@ class GroupFolder:
                 gui.add_html(block(span(kind, "dim")))
             rows |= {f: RateRow(gui, session, self._group, f, write_back) for f in fields}
         return rows
+
+    def _add_absorber(
+        self, gui: viser.GuiApi, session: Session
+    ) -> AbsorberDetails | GivenAbsorber | None:
+        """What there is of an absorber, if the group is its spring."""
+        if session.state.design.alterations.absorber(self._group.name) is not None:
+            return AbsorberDetails(gui, session, self._group)
+        return GivenAbsorber(gui) if _mass_on(session.vehicle, self._group) else None
 
     def hold(self, group: MountGroup) -> None:
         """Has the bounds of a group of its name and fields, if they are others."""
@@ -78,8 +88,8 @@ class GroupFolder:
             effect = effects.get((name, field))
             row.show(state, compared, "" if effect is None else in_a_sentence(effect, mode))
         self._details.show(state, compared, effects, mode, is_old)
-        if self._absorber and (added := state.design.alterations.absorber(name)):
-            self._absorber.show(added.mass, state.design.rates[name])
+        if self._absorber and (mass := _mass_on(solved.now.prepared.vehicle, self._group)):
+            self._absorber.show(mass, state.design.rates[name])
 
     def _share(self, solved: Solved) -> str:
         """Its part in the energy of the shown mode: of what springs hold or, without, dampers take."""
@@ -87,3 +97,10 @@ class GroupFolder:
         if any(map(has_springs, self._group.with_rates(solved.now.rates[name]).mounts)):
             return f"{100 * solved.strain[name]:.0f} % of strain energy"
         return f"{100 * solved.now.dissipated_shares(mode)[name]:.0f} % of lost energy"
+
+
+def _mass_on(vehicle: Vehicle, group: MountGroup) -> float | None:
+    """The mass of the absorber whose spring a group is, kg; None if it is of none."""
+    name = mass_name(group.name)
+    found = (b for b in vehicle.bodies if b.name == name and b.role == "absorber")
+    return next((body.mass for body in found if isinstance(body, RigidBody)), None)
