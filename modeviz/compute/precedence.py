@@ -46,6 +46,13 @@ class Precedence:
         """Until when each answer that is being made counts."""
         self._queue: deque[_Place] = deque()
 
+    @property
+    def is_contended(self) -> bool:
+        """Whether more than one waits for an answer."""
+        with self._lock:
+            now = time.monotonic()
+            return sum(until > now for until in self._answering.values()) > 1
+
     @contextmanager
     def answer(self) -> Iterator[None]:
         """While somebody waits for what is done within."""

@@ -111,3 +111,15 @@ def test_a_step_that_fails_lets_the_next_go():
         raise ValueError("by mistake")
     take(precedence, done, "next")
     assert done == [("next", True)]
+
+
+def test_answers_are_contended_while_there_are_two_that_do_not_hang():
+    precedence, slow = Precedence(LONG), Precedence(0.01)
+    with precedence.answer(), slow.answer():
+        assert not precedence.is_contended
+        with precedence.answer():
+            assert precedence.is_contended
+        assert not precedence.is_contended
+        time.sleep(0.02)
+        with slow.answer():
+            assert not slow.is_contended

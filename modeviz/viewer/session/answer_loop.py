@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
+from modeviz.analysis.results import Results
 from modeviz.errors import ModevizError
 from modeviz.viewer.session.answers import Answers, Solved, asks_for_the_same
 from modeviz.viewer.session.asked import Asked
+from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
 from modeviz.viewer.session.history import Moment
 from modeviz.viewer.session.inspector import Inspector
@@ -79,7 +81,11 @@ class AnswerLoop:
         self._good: Moment | None = None
         self._worker: Worker[_Job] = Worker(self._work, self._tell_failure, patience, self._leave)
         self._inspector = Inspector(
-            shared, self._rebase, self._is_current, self.ask, self._tell_failure
+            shared,
+            self._rebase,
+            self._is_current,
+            self.ask,
+            self._tell_failure,
         )
 
     @property
@@ -108,6 +114,8 @@ class AnswerLoop:
             last = self.answer
             if last is None or last.is_detailed or not self._answers_what_is_asked(last):
                 return True
+            if time.perf_counter() > end:
+                return False
             time.sleep(DETAILS_EVERY / 10)
         return False
 
@@ -158,7 +166,11 @@ class AnswerLoop:
             self._worker.sign(PREPARES_WITHIN)
         self._told_at = time.perf_counter()
         follow = partial(self._follow_preparing, job.state)
-        return self.answers.answer(job.state, self._inspector.findings, follow)
+        return self.answers.answer(job.state, self._findings, follow)
+
+    def _findings(self, now: Results) -> Findings:
+        """Return what is known of results; nothing to a solve that was left behind."""
+        return self._inspector.findings(now) if self._worker.is_heard else Findings(now)
 
     def _follow_preparing(self, state: State, fraction: float) -> None:
         """Tells now and then how far a preparation is, or ends one that was overtaken."""

@@ -199,7 +199,8 @@ class Answers:
         state = named.answerable(asked)
         now, base = self._solve(state), named.results[state.against]
         assert self._follower is not None
-        followed = self._follower.follow(state, base, now)
+        is_hurried = self._shared.precedence.is_contended
+        followed = self._follower.follow(state, base, now, is_hurried)
         seconds = self._seconds(now, begin)
         static = self._in_load_cases(state, followed)
         self._last = Solved(

@@ -25,6 +25,9 @@ SAME_MAC = 0.9
 DETAILS_EVERY = 0.1
 """s between two looks at tables while rates move; curves, figures and shape follow every move."""
 
+DETAILS_WITHIN = 0.5
+"""s for which tables do not follow at all, where others wait for answers meanwhile."""
+
 
 @dataclass(frozen=True, eq=False)
 class FollowedMode:
@@ -70,31 +73,40 @@ class ModeFollower:
         self._chosen: tuple[ModalResults, int]
         """The mode that was chosen to be shown, where it is called so."""
         self._detailed_at = -np.inf
+        self._quick_since = np.inf
+        """When the first answer without details came since the last one with them."""
 
     @property
     def chosen(self) -> tuple[str, ModalResults, int] | None:
         """What the chosen mode is called, and which it is of some results; None before the first."""
         return None if self._chosen_by is None else (self._chosen_by[0], *self._chosen)
 
-    def follow(self, state: State, base: Results, now: Results) -> FollowedMode:
+    def follow(
+        self, state: State, base: Results, now: Results, is_hurried: bool = False
+    ) -> FollowedMode:
         """Return the mode to be shown.
 
         Args:
             state: what is asked for.
             base: the results that all is compared with.
             now: those with the rates of the state.
+            is_hurried: whether others wait, so that details are left for when nothing moves.
         """
-        followed = self._recognised(state, base, now) or self._in_detail(state, base, now)
+        followed = self._recognised(state, base, now, is_hurried)
+        followed = followed or self._in_detail(state, base, now)
+        quick_since = min(self._quick_since, time.perf_counter())
+        self._quick_since = np.inf if followed.is_detailed else quick_since
         self._last = state, followed
         return followed
 
-    def _recognised(self, state: State, base: Results, now: Results) -> FollowedMode | None:
+    def _recognised(
+        self, state: State, base: Results, now: Results, is_hurried: bool
+    ) -> FollowedMode | None:
         """The mode that clearly is the one shown last, while details need not be drawn; else None."""
         if self._last is None:
             return None
         before, last = self._last
-        is_due = time.perf_counter() - self._detailed_at >= DETAILS_EVERY
-        if now is last.now or is_due or _shows_something_else(before, state):
+        if now is last.now or self._is_due(is_hurried) or _shows_something_else(before, state):
             return None
         likeness = (now.modes.shapes.T @ now.prepared.system.mass @ last.shape) ** 2
         mode = int(likeness.argmax())
@@ -102,6 +114,12 @@ class ModeFollower:
             return None
         shape = self._in_phase(now.modes.shapes[:, mode])
         return FollowedMode(now, base, mode, last.same, last.name, shape, last.track, last.pairs, False)
+
+    def _is_due(self, is_hurried: bool) -> bool:
+        """Whether it is time for details, whatever else is shown."""
+        now = time.perf_counter()
+        is_spared = is_hurried and now - self._quick_since < DETAILS_WITHIN
+        return now - self._detailed_at >= DETAILS_EVERY and not is_spared
 
     def _in_detail(self, state: State, base: Results, now: Results) -> FollowedMode:
         """The mode chosen, and where all modes of the base went."""

@@ -89,7 +89,7 @@ class Inspector:
         if inquiry is None or not self._rests(solved, DETAILS_EVERY):
             return
         if not solved.is_detailed:
-            self._found(True)
+            self._in_turn(solved, partial(self._found, True))
         is_known = inquiry.findings.is_complete and self._is_done
         if is_known or not self._rests(solved, REST):
             return

@@ -135,16 +135,21 @@ def test_the_steps_of_an_inquiry_are_done_once_whoever_takes_them(monkeypatch):
     assert steps[-1] == len(shared.findings.now.frequency_hz)
 
 
-def test_nothing_is_looked_into_while_another_session_waits_for_an_answer(opened):
-    session, _ = opened()
+def test_what_nobody_waits_for_comes_after_the_answers_of_all_sessions(opened):
+    session, told = opened()
     assert session.wait_checked(SOON)
-    precedence = session._loop._precedence
+    n_told, precedence = len(told), session._loop._precedence
     with precedence.answer():
-        session.do(SetRate("A", "lateral", 1e5))
-        assert session.wait(SOON)
+        session.do(SetRate("A", "lateral", 290e3))
         wait_until(lambda: precedence._queue)
-        assert session.answer.findings.sensitivity is None
+        quick = told[n_told].solved
+        assert len(told) == n_told + 1
+        assert quick.now.rates["A"].lateral == 290e3
+        assert not quick.is_detailed
+        assert quick.findings.sensitivity is None
     assert session.wait_checked(SOON)
+    assert session.answer.now is quick.now
+    assert session.answer.is_detailed
     assert session.answer.findings.is_complete
 
 
@@ -154,7 +159,6 @@ def test_a_session_that_is_asked_for_more_gives_its_turn_up(opened):
     precedence = session._loop._precedence
     with precedence.answer():
         session.do(SetRate("A", "lateral", 1e5))
-        assert session.wait(SOON)
         wait_until(lambda: precedence._queue)
         waiting = precedence._queue[0]
         session.do(SetRate("A", "lateral", 2e5))
