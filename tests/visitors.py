@@ -48,6 +48,7 @@ def knock(server, origin, path="/", version=viser.__version__, **headers):
         f"ws://127.0.0.1:{server.get_port()}{path}",
         open_timeout=PATIENCE_S,
         close_timeout=1.0,
+        max_queue=None,  # else who does not read is not told that it may go, and waits for that
         **page_client.handshake(origin, version, **headers),
     )
 
