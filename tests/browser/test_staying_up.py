@@ -21,7 +21,7 @@ def quick_to_draw(monkeypatch):
             super().__init__(*given, **named)
             self.server.scene.configure_environment_map(None)
             self.scene._stage._key.cast_shadow = False
-            self._animation._run(False)
+            self.screen.motion.animation._run(False)
 
     monkeypatch.setattr(open_session, "App", Quick)
 
