@@ -137,6 +137,8 @@ def _is_study(connection: Connection, path: Path) -> bool:
         raise ModevizError(damaged(path, str(found)))
     if application == APPLICATION_ID:
         _check_version(path, application, version)
+        if version < 1:
+            raise ModevizError(damaged(path, "its tables have no version"))
         if table := wrong_table(connection):
             raise ModevizError(damaged(path, f"table {table} is not one of a study"))
         return True

@@ -162,3 +162,14 @@ def test_an_earlier_study_that_is_damaged_is_refused_and_left_as_it_was(old):
         with pytest.raises(ModevizError, match="table change is not one of a study"):
             read(old)
     assert content(old.parent) == before
+
+
+def test_a_study_whose_tables_have_no_version_is_refused_and_left_as_it_was(old):
+    connection = sqlite3.connect(old)
+    connection.execute("PRAGMA user_version = 0")
+    connection.close()
+    before = content(old.parent)
+    for read in (opened, Records.of_file):
+        with pytest.raises(ModevizError, match="its tables have no version"):
+            read(old)
+    assert content(old.parent) == before
