@@ -14,6 +14,9 @@ from modeviz.viewer.page.html import hidden
 
 Name = TypeVar("Name", bound=Hashable)
 
+FACELESS = "hidden"
+"""What the buttons are called, which nobody sees."""
+
 
 class NamedButtons(Generic[Name]):
     """As `HiddenButtons`, by what they are for in place of a number.
@@ -55,7 +58,7 @@ class NamedButtons(Generic[Name]):
 
     def _made(self, name: Name) -> viser.GuiButtonHandle:
         with self._part:
-            button = self._gui.add_button("hidden")
+            button = self._gui.add_button(FACELESS)
         button.on_click(lambda event: self._heard(name, event.client))
         return button
 
