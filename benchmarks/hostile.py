@@ -29,7 +29,7 @@ from benchmarks.page_client import session_query
 from benchmarks.websocket import Page, free_port, open_page, say, wait_for_answer, widgets
 from modeviz.analysis.results import Conditions
 from modeviz.files import builtin_vehicle, read_vehicle
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.secret import Secret
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.serve import serve
 

@@ -10,7 +10,7 @@ from visitors import CAMERA, PATIENCE_S, encoded, knock, own_origin, update, wai
 from websockets.exceptions import ConnectionClosed
 
 from benchmarks.page_client import messages
-from modeviz.viewer.page.looking import let_all_use
+from modeviz.viewer.page.people.looking import let_all_use
 
 
 class SharedHere:

@@ -43,6 +43,14 @@ LAYERS = [
 ]
 """From the ground up; what stands side by side knows nothing of each other."""
 
+BEFORE_IN_PAGE = {
+    "wire": (),
+    "doors": ("wire",),
+    "people": ("wire",),
+    "widgets": ("wire", "people"),
+}
+"""Folders of the page; the modules beside them put them together."""
+
 PRIVATE = re.compile(
     r"viser(?:\.\w+)* import _|viser\._|_websock_\w+|\._impl\b|_handle_from_node|_insert_message"
     r"|_queue_update"
@@ -86,6 +94,15 @@ def imported_layers(path: Path) -> set[str]:
 def allowed(layer: str) -> set[str]:
     rank = next(i for i, names in enumerate(LAYERS) if layer in names)
     return set().union(*LAYERS[:rank]) | {layer}
+
+
+@pytest.mark.parametrize("folder", BEFORE_IN_PAGE)
+def test_a_folder_of_the_page_imports_only_those_that_stand_before_it(folder):
+    modules = (PACKAGE / "viewer/page" / folder).glob("*.py")
+    names = {name for path in modules for name in imports(path)}
+    inside = {name.split(".")[3] for name in names if name.startswith("modeviz.viewer.page.")}
+    assert folder in inside
+    assert inside <= {folder, *BEFORE_IN_PAGE[folder]}
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda p: p.relative_to(PACKAGE).as_posix())

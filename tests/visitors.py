@@ -10,7 +10,7 @@ import viser
 from websockets.sync.client import connect
 
 from benchmarks import page_client
-from modeviz.viewer.page.decoding import PART
+from modeviz.viewer.page.wire.decoding import PART
 
 TOKEN = "a-long.secret_1"
 

@@ -12,7 +12,7 @@ from typing import Literal
 
 from modeviz.errors import ModevizError, reason
 from modeviz.text.log import LOG, TerminalHandler, file_formatter
-from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.wire.notices import Notices
 
 
 @dataclass(frozen=True, kw_only=True)

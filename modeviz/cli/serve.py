@@ -36,8 +36,8 @@ class ServeOptions(ServerOptions):
 def serve_folders(options: ServeOptions) -> None:
     """Serves vehicles until it is stopped."""
     with ended_by_interrupt():
-        from modeviz.viewer.page.secret import chosen_secret
-        from modeviz.viewer.page.surroundings import surroundings
+        from modeviz.viewer.page.doors.secret import chosen_secret
+        from modeviz.viewer.page.doors.surroundings import surroundings
         from modeviz.viewer.serving.serve import serve  # viser alone takes a second to import
 
     folders = options.folders

@@ -29,7 +29,7 @@ def token(options: TokenOptions) -> None:
         ModevizError: none is kept, or it cannot be replaced.
     """
     with ended_by_interrupt():
-        from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken, kept_token, kept_tokens
+        from modeviz.viewer.page.doors.kept_tokens import LIFE_S, KeptToken, kept_token, kept_tokens
 
     def line(kept: KeptToken) -> str:
         days = max(LIFE_S - kept.age(), 0.0) / DAY_S

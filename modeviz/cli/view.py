@@ -64,8 +64,8 @@ def view(options: ViewOptions) -> None:
             VehicleFolder,
             finished_vehicle,
         )
-        from modeviz.viewer.page.secret import chosen_secret
-        from modeviz.viewer.page.surroundings import surroundings
+        from modeviz.viewer.page.doors.secret import chosen_secret
+        from modeviz.viewer.page.doors.surroundings import surroundings
         from modeviz.viewer.serving.bench import Bench
         from modeviz.viewer.serving.serve import serve  # viser alone takes a second to import
         from modeviz.viewer.session.encoding.link import view_in

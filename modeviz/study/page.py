@@ -148,8 +148,8 @@ def open_page(
         ModevizError: the port is in use, or the road does not go with the speed.
     """
     from modeviz.viewer.app import App
+    from modeviz.viewer.page.doors.tokens import new_token
     from modeviz.viewer.page.server import open_server
-    from modeviz.viewer.page.tokens import new_token
 
     title = f"{vehicle.name} · modeviz"
     with ExitStack() as limit, ExitStack() as undoing:

@@ -10,10 +10,10 @@ from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.documents import Documents
 from modeviz.viewer.keeping import Keeping
-from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.failures import Failures
 from modeviz.viewer.page.server import Server
-from modeviz.viewer.page.theme import dress
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.theme import dress
 from modeviz.viewer.scene.mount_handle import Dragged
 from modeviz.viewer.scene.scene import Scene
 from modeviz.viewer.screen.page_parts import PageParts
@@ -74,7 +74,7 @@ class App:
         )
         self.tasks: Tasks = self._new_tasks()
         self.keeping: Keeping = Keeping(server, self.session, self.tasks, self._animation, opening)
-        dress(server.gui, dark, "page/numbers.js", "page/no_drop.js")
+        dress(server.gui, dark, "page/browser/numbers.js", "page/browser/no_drop.js")
         self.scene: Scene = Scene(
             server, self.session.vehicle, dark, self._select, opening.camera, self._leave
         )

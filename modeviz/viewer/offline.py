@@ -16,9 +16,9 @@ from modeviz.text.axes import Axis, shown_hz
 from modeviz.text.wording import signed
 from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.html import block, row, span, style_sheet, table, title
-from modeviz.viewer.page.page_file import named_page
+from modeviz.viewer.page.doors.page_file import named_page
 from modeviz.viewer.page.recording import recorded_page
+from modeviz.viewer.page.widgets.html import block, row, span, style_sheet, table, title
 from modeviz.viewer.panels.charts import chart_lines, legend
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.panels.modes import listed, moved_by

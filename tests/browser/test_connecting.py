@@ -7,7 +7,7 @@ from pages import NOTICE, said_in_time, wait_for
 from small_proxy import proxy
 from visitors import TOKEN
 
-from modeviz.viewer.page.handshake import WHY
+from modeviz.viewer.page.doors.door import WHY
 from modeviz.viewer.page.server import open_server
 
 SEEN = "document.elementFromPoint(innerWidth / 2, innerHeight / 2).textContent"

@@ -10,11 +10,11 @@ from nginx import NAME, certificate, documented, free_port, nginx
 from pages import NOTICE, said_in_time, wait_for, wait_until
 from visitors import TOKEN
 
-from modeviz.viewer.page.handshake import SUBPROTOCOL
-from modeviz.viewer.page.kept_tokens import KeptToken
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.door import SUBPROTOCOL
+from modeviz.viewer.page.doors.kept_tokens import KeptToken
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import surroundings
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.page.surroundings import surroundings
 
 DOCS = Path(__file__).parents[2] / "docs" / "serving.md"
 LIVE = "document.body.innerText.includes('live')"

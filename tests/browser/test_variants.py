@@ -8,7 +8,7 @@ from session_commands import Alter
 
 from modeviz.files.rate_files import parse_rates, rates_text
 from modeviz.vehicle.mount_rates import MountRates
-from modeviz.viewer.page.uploads import LARGEST_FILE
+from modeviz.viewer.page.wire.uploads import LARGEST_FILE
 from modeviz.viewer.session.commands.decisions import AddVariant, Forget, Load, Pin, TakeRates
 from modeviz.viewer.session.commands.looks import CompareWith, Overlay
 

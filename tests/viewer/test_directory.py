@@ -15,8 +15,8 @@ from websockets.exceptions import InvalidStatus
 
 from modeviz.compute.precedence import Precedence
 from modeviz.journal.keys import digest_of
-from modeviz.viewer.page.handshake import SUBPROTOCOL, WHY
-from modeviz.viewer.page.surroundings import surroundings
+from modeviz.viewer.page.doors.door import SUBPROTOCOL, WHY
+from modeviz.viewer.page.doors.surroundings import surroundings
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.serving import open_session
 from modeviz.viewer.serving import open_sessions as rules

@@ -25,8 +25,8 @@ from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.keys import digest_of
 from modeviz.journal.study_file import StudyFile
 from modeviz.text.log import JsonFormatter
+from modeviz.viewer.page.doors.secret import Secret
 from modeviz.viewer.page.front import open_front
-from modeviz.viewer.page.secret import Secret
 from modeviz.viewer.serving import lobby
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.directory import Directory

@@ -11,7 +11,7 @@ from visitors import CAMERA, encoded, get, knock, own_origin, update, wait_until
 
 from benchmarks.malformed import malformed
 from modeviz.analysis.results import Conditions
-from modeviz.viewer.page import connection, pace
+from modeviz.viewer.page.wire import connection, pace
 
 N_MESSAGES = 2000
 

@@ -11,9 +11,9 @@ from visitors import PART_OF_FILE, encoded, update, wait_until
 from benchmarks.page_client import wire
 from modeviz.analysis.results import Conditions
 from modeviz.viewer.app import App
-from modeviz.viewer.page import decoding
-from modeviz.viewer.page.named_buttons import FACELESS
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.page.widgets.named_buttons import FACELESS
+from modeviz.viewer.page.wire import decoding
 from modeviz.viewer.session.commands.decisions import Pin, PlaceMounts, SetRate
 from modeviz.viewer.session.commands.looks import ChangeLook, SelectGroup
 

@@ -18,13 +18,13 @@ from modeviz.viewer.inspection.scene import InspectionScene
 from modeviz.viewer.inspection.sources import Source
 from modeviz.viewer.inspection.state import Content, Inspection, State
 from modeviz.viewer.inspection.subject import subject_of_component
-from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.page.layout import NARROW, WIDE, Layout
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import Surroundings
 from modeviz.viewer.page.server import Server, open_server
-from modeviz.viewer.page.surroundings import Surroundings
-from modeviz.viewer.page.theme import dress
-from modeviz.viewer.page.title import Title
+from modeviz.viewer.page.widgets.hotkeys import Hotkeys
+from modeviz.viewer.page.widgets.layout import NARROW, WIDE, Layout
+from modeviz.viewer.page.widgets.theme import dress
+from modeviz.viewer.page.widgets.title import Title
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.pictures import PicturePanel
 from modeviz.viewer.scene.stage import DARK, LIGHT

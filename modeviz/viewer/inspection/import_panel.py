@@ -17,11 +17,11 @@ from modeviz.text.wording import sentence_case
 from modeviz.viewer.inspection.import_fields import ImportFields
 from modeviz.viewer.inspection.putting import Put, component_in, put
 from modeviz.viewer.inspection.received import Received
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import assign, name_of
-from modeviz.viewer.page.html import block, heading, span
 from modeviz.viewer.page.server import Server
-from modeviz.viewer.page.uploads import take_files_of
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import assign, name_of
+from modeviz.viewer.page.widgets.html import block, heading, span
+from modeviz.viewer.page.wire.uploads import take_files_of
 
 TAB = "Import"
 LARGEST_FILE = 200_000_000

@@ -11,8 +11,17 @@ from modeviz.text.wording import sentence_case
 from modeviz.viewer.inspection.state import Coloring, Inspection, State
 from modeviz.viewer.inspection.subject import ListedMode, Subject
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, named, row, span, table
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
+    HiddenButtons,
+    block,
+    heading,
+    hinted,
+    named,
+    row,
+    span,
+    table,
+)
 from modeviz.viewer.scene.cameras import add_view_buttons
 
 N_ROWS = 40

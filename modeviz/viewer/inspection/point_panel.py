@@ -12,8 +12,8 @@ from modeviz.formats.response_points import add_response_point
 from modeviz.text.wording import sentence_case
 from modeviz.viewer.inspection.import_fields import printed
 from modeviz.viewer.inspection.subject import Subject
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block
 
 CENTER = "Centre of gravity"
 """Where a point on a rigid body is if nothing else is said."""

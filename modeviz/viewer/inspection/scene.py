@@ -15,8 +15,8 @@ from modeviz.vehicle.arrays import Array, Floats
 from modeviz.vehicle.bodies import Material, MeshPart
 from modeviz.viewer.inspection.state import Content, State
 from modeviz.viewer.inspection.subject import Mark, Subject
-from modeviz.viewer.page.handles import assign
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.scene.body_view import DrawnBody
 from modeviz.viewer.scene.cameras import Cameras
 from modeviz.viewer.scene.driver import AT_REST, LARGEST, ShapeDriver

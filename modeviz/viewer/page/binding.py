@@ -12,9 +12,9 @@ from typing import Any, Generic, Protocol, TypeVar
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.server import tell_mistake
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.session.state import State
 
 Read = Callable[[State], Any]

@@ -2,8 +2,8 @@
 
 from modeviz.errors import ModevizError
 from modeviz.text.log import our_mistake
-from modeviz.viewer.page.alerts import alert, withdraw
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.widgets.alerts import alert, withdraw
 from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.worker import StuckError
 

@@ -12,21 +12,21 @@ from websockets.asyncio.server import ServerConnection, serve
 from websockets.http11 import Request, Response
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.acceptor import Acceptor
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.handshake import Door
-from modeviz.viewer.page.house import House
-from modeviz.viewer.page.limits import client_of
-from modeviz.viewer.page.links import link, local_link
-from modeviz.viewer.page.listening import listening_socket
-from modeviz.viewer.page.loop_troubles import report, silent_logger
-from modeviz.viewer.page.notices import Notices
-from modeviz.viewer.page.origins import LOOPBACK
-from modeviz.viewer.page.request_head import awaited_head, has_left, is_websocket
-from modeviz.viewer.page.secret import Secret
-from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
-from modeviz.viewer.page.tokens import checked_token
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.door import Door
+from modeviz.viewer.page.doors.links import link, local_link
+from modeviz.viewer.page.doors.origins import LOOPBACK
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import NOTHING_AROUND, Surroundings
+from modeviz.viewer.page.doors.tokens import checked_token
+from modeviz.viewer.page.wire.acceptor import Acceptor
+from modeviz.viewer.page.wire.connection import PageConnection
+from modeviz.viewer.page.wire.house import House
+from modeviz.viewer.page.wire.limits import client_of
+from modeviz.viewer.page.wire.listening import listening_socket
+from modeviz.viewer.page.wire.loop_troubles import report, silent_logger
+from modeviz.viewer.page.wire.notices import Notices
+from modeviz.viewer.page.wire.request_head import awaited_head, has_left, is_websocket
 
 HANDSHAKE_S = 10.0
 """s: how long a client may take to say what it wants."""

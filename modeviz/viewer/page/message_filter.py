@@ -15,12 +15,12 @@ import viser
 from viser import _messages
 from viser.infra import ClientId, WebsockClientConnection
 
-from modeviz.viewer.page.connection import expect
-from modeviz.viewer.page.looking import DRAGS, only_looks, put_back_drag, widget_of
+from modeviz.viewer.page.people.looking import DRAGS, only_looks, put_back_drag, widget_of
+from modeviz.viewer.page.people.visitors import Visitors
 from modeviz.viewer.page.possible_values import is_possible
-from modeviz.viewer.page.uploads import UPLOADS, is_upload_allowed, refuse_upload
-from modeviz.viewer.page.visitors import Visitors
-from modeviz.viewer.page.write_back import DELAY
+from modeviz.viewer.page.widgets.write_back import DELAY
+from modeviz.viewer.page.wire.connection import expect
+from modeviz.viewer.page.wire.uploads import UPLOADS, is_upload_allowed, refuse_upload
 
 NO_CONTROL = "only who presents can change something."
 """Why a file is not taken from who looks."""

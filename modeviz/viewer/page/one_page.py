@@ -4,11 +4,11 @@ from urllib.parse import urlsplit
 
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.acceptor import Acceptor
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.handshake import WHY, Door
-from modeviz.viewer.page.page_file import PageFile
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.door import WHY, Door
+from modeviz.viewer.page.doors.page_file import PageFile
+from modeviz.viewer.page.wire.acceptor import Acceptor
+from modeviz.viewer.page.wire.connection import PageConnection
 
 PATHS = ("/", "/index.html")
 

@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Any
 
-from modeviz.viewer.page.decoding import LONGEST_TEXT
+from modeviz.viewer.page.wire.decoding import LONGEST_TEXT
 
 if TYPE_CHECKING:
     from viser._gui_handles import _GuiInputHandle

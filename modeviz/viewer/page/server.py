@@ -12,15 +12,15 @@ from viser.infra import ClientId
 from websockets.frames import CloseCode
 
 from modeviz.text.log import our_mistake
-from modeviz.viewer.page.acceptor import Acceptor
-from modeviz.viewer.page.alerts import alert
 from modeviz.viewer.page.front import Front, open_front
 from modeviz.viewer.page.message_filter import gate_messages
-from modeviz.viewer.page.notices import Notices
 from modeviz.viewer.page.one_page import OnePage
-from modeviz.viewer.page.turns import Turns
+from modeviz.viewer.page.people.visitors import Visitors
 from modeviz.viewer.page.viser_start import behind, let_leave_in_silence, quietly
-from modeviz.viewer.page.visitors import Visitors
+from modeviz.viewer.page.widgets.alerts import alert
+from modeviz.viewer.page.wire.acceptor import Acceptor
+from modeviz.viewer.page.wire.notices import Notices
+from modeviz.viewer.page.wire.turns import Turns
 
 Options = ParamSpec("Options")
 

@@ -18,12 +18,12 @@ from viser.infra import WebsockMessageHandler
 from websockets.asyncio.server import serve
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.acceptor import Acceptor
-from modeviz.viewer.page.connection import CLOSING_S, PageConnection
-from modeviz.viewer.page.decoding import LARGEST_MESSAGE
 from modeviz.viewer.page.front import HANDSHAKE_S, Front
-from modeviz.viewer.page.loop_troubles import Handler, report, reported, silent_logger
-from modeviz.viewer.page.turns import Turns
+from modeviz.viewer.page.wire.acceptor import Acceptor
+from modeviz.viewer.page.wire.connection import CLOSING_S, PageConnection
+from modeviz.viewer.page.wire.decoding import LARGEST_MESSAGE
+from modeviz.viewer.page.wire.loop_troubles import Handler, report, reported, silent_logger
+from modeviz.viewer.page.wire.turns import Turns
 
 _one_server_at_a_time, _one_is_quiet_at_a_time = threading.Lock(), threading.Lock()
 

@@ -8,10 +8,10 @@ import numpy as np
 import viser
 
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import assign, name_of
-from modeviz.viewer.page.html import block, heading, title
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import assign, name_of
+from modeviz.viewer.page.widgets.html import block, heading, title
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.scene.driver import ShapeDriver
 from modeviz.viewer.session.coloring import ColorScale
@@ -154,7 +154,7 @@ class AnimationCard:
         self._run(not self._is_running)
         self._changed()
         if client is not None and not self._is_running:
-            scripts.run(client.gui, "page/tell_phase.js", name_of(self._stands))
+            scripts.run(client.gui, "page/browser/tell_phase.js", name_of(self._stands))
 
     def _say_phase(self) -> None:
         """Takes over the phase at which a page stands, unless the motion has gone on meanwhile."""

@@ -12,8 +12,8 @@ from modeviz.units import factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, title
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, title
 from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChooseCurve

@@ -7,10 +7,10 @@ import viser
 
 from modeviz.text.axes import shown_hz
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page import scripts
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import name_of
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import name_of
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.session.commands.command import Command
 from modeviz.viewer.session.commands.looks import ChangeCharts
 from modeviz.viewer.session.session import Session

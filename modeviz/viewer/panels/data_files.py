@@ -13,7 +13,7 @@ from modeviz.formats.component import UNIT_SYSTEMS
 from modeviz.text.wording import file_name, told_apart
 from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.panels.downloads import Downloads
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.cursor import has_ride

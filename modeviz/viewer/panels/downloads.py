@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import viser
 
-from modeviz.viewer.page.house import MOST_PAGES
-from modeviz.viewer.page.limits import Places
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.wire.house import MOST_PAGES
+from modeviz.viewer.page.wire.limits import Places
 from modeviz.viewer.tasks.page_jobs import Progress, run, turn
 
 Maker = Callable[[viser.ClientHandle, Progress], tuple[str, bytes]]

@@ -7,8 +7,8 @@ import viser
 
 from modeviz.errors import cut
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import (
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
     TWO_LINES,
     HiddenButtons,
     block,

@@ -12,8 +12,8 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, change, heading, row, span, table
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import HiddenButtons, block, change, heading, row, span, table
 from modeviz.viewer.panels.charts import chart_lines, curve_labels, end_colors, keys
 from modeviz.viewer.panels.cursor import Cursor, CursorSlider
 from modeviz.viewer.panels.plots import Line, ResponsePlot, Scale, set_line

@@ -13,9 +13,9 @@ from modeviz.vehicle.engine import EngineOrder
 from modeviz.vehicle.loads import Road
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChangeCharts, Drive
 from modeviz.viewer.session.cursor import has_ride

@@ -13,8 +13,8 @@ from modeviz.ride.psd import rms
 from modeviz.text.wording import number, sentence_case, signed, significant
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_rates import DIRECTIONS, RIDE_DIRECTIONS
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, change, heading, named, row, span, table
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, change, heading, named, row, span, table
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.responses import Responses

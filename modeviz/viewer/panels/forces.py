@@ -14,8 +14,8 @@ from modeviz.text.wording import number, percent_change, significant
 from modeviz.vehicle.arrays import Complexes, Floats
 from modeviz.vehicle.connections import MOTIONS, Mount
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import (
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
     HiddenButtons,
     block,
     heading,

@@ -6,10 +6,10 @@ from html import escape
 
 import viser
 
-from modeviz.viewer.page.handles import GuiModalHandle
-from modeviz.viewer.page.hotkeys import Hotkey, Hotkeys
-from modeviz.viewer.page.html import FOR_ALL, block
-from modeviz.viewer.page.looking import let_all_use
+from modeviz.viewer.page.people.looking import let_all_use
+from modeviz.viewer.page.widgets.handles import GuiModalHandle
+from modeviz.viewer.page.widgets.hotkeys import Hotkey, Hotkeys
+from modeviz.viewer.page.widgets.html import FOR_ALL, block
 
 TOPICS = (
     (

@@ -12,8 +12,8 @@ from modeviz.dynamics.tracking import WEAK_MAC
 from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import (
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
     HiddenButtons,
     block,
     heading,

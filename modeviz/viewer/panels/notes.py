@@ -12,9 +12,9 @@ from modeviz.journal.sessions import SessionId
 from modeviz.journal.study_file import StudyFile
 from modeviz.report.notes import Note, PinnedTo
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
-from modeviz.viewer.page.named_buttons import NamedButtons
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.note_book import NoteBook, StudyNotes
 from modeviz.viewer.session.session import Session

@@ -11,8 +11,8 @@ from modeviz.ride.participation import Peak
 from modeviz.text.axes import shown_hz
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.engine import EngineOrder
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, heading, span
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import HiddenButtons, block, heading, span
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ShowMode
 from modeviz.viewer.session.responses import Responses

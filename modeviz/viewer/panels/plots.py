@@ -9,7 +9,7 @@ import viser
 
 from modeviz.text.axes import DECIBELS, USUAL_SHOWN_HZ, Axis
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.handles import name_of, send_together
+from modeviz.viewer.page.widgets.handles import name_of, send_together
 from modeviz.viewer.session.responses import LevelUnit
 
 SHOWN_HZ = USUAL_SHOWN_HZ

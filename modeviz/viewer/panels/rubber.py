@@ -14,8 +14,8 @@ from modeviz.units import factor
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, row, span, table
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, row, span, table
 from modeviz.viewer.panels.charts import chart_lines, end_colors, keys
 from modeviz.viewer.panels.linear_plot import LinearPlot
 from modeviz.viewer.session.answers import Solved

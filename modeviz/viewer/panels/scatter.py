@@ -11,9 +11,9 @@ from modeviz.errors import ModevizError
 from modeviz.report.records import Record
 from modeviz.text.wording import number, significant
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, hinted, row, span, table, title
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, hinted, row, span, table, title
 from modeviz.viewer.session.cursor import has_ride
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job

@@ -13,9 +13,18 @@ from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.bodies import FlexibleBody
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, heading, hinted, row, span, table, title
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
+    HiddenButtons,
+    block,
+    heading,
+    hinted,
+    row,
+    span,
+    table,
+    title,
+)
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.color_scale import color_scale_text
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.coloring import color_scale

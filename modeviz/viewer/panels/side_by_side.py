@@ -13,7 +13,7 @@ from modeviz.units import QuantityName, factor
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.mount_rates import DIRECTIONS, RATE_FIELDS
 from modeviz.vehicle.placement import Placement
-from modeviz.viewer.page.html import change, heading, named, row, span, table
+from modeviz.viewer.page.widgets.html import change, heading, named, row, span, table
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.modes import listed, moved_by
 from modeviz.viewer.session.answers import Solved

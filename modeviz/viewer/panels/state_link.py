@@ -5,8 +5,8 @@ from collections.abc import Callable
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.html import block
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.html import block
 from modeviz.viewer.scene.cameras import pose_of
 from modeviz.viewer.session.view import CameraPose
 

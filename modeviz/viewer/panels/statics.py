@@ -12,8 +12,8 @@ from modeviz.text.wording import number, sentence_case
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.connections import GROUND, Connection, Mount
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import (
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import (
     HiddenButtons,
     block,
     heading,

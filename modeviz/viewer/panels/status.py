@@ -11,8 +11,8 @@ from modeviz.report.components import believed, change_words, is_doubtful
 from modeviz.report.tables import own_frequencies
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.bodies import FlexibleBody
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, hinted, span, title
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, hinted, span, title
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.findings import Findings
 

@@ -12,10 +12,10 @@ from modeviz.optimise.trade_off import ParetoPoint
 from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.axes import Axis
 from modeviz.text.wording import sentence_case, significant
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, span
-from modeviz.viewer.page.named_buttons import NamedButtons
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, span
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.background_task import Job

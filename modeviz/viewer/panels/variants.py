@@ -11,10 +11,10 @@ from modeviz.analysis.results import AXIS, Results
 from modeviz.text.wording import sentence_case, signed
 from modeviz.vehicle.mount_rates import RIDE_DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, named, row, span, table
-from modeviz.viewer.page.named_buttons import NamedButtons
-from modeviz.viewer.page.question import ask
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, named, row, span, table
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
+from modeviz.viewer.page.widgets.question import ask
 from modeviz.viewer.panels.exchange import ExchangePanel
 from modeviz.viewer.panels.figures import DRIVER
 from modeviz.viewer.panels.plots import set_line

@@ -18,9 +18,9 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import nodes
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import nodes
 from modeviz.viewer.pictures.pictures import Pose
 from modeviz.viewer.scene.driver import PREFIX, ShapeDriver, held
 

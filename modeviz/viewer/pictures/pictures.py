@@ -14,8 +14,8 @@ from modeviz.errors import ModevizError
 from modeviz.report.images import on_color
 from modeviz.report.scale_bar import ScaleBar, with_scale
 from modeviz.shapes.colors import stop_colors
-from modeviz.viewer.page.connection import asked
-from modeviz.viewer.page.decoding import LARGEST_PICTURE
+from modeviz.viewer.page.wire.connection import asked
+from modeviz.viewer.page.wire.decoding import LARGEST_PICTURE
 from modeviz.viewer.scene.stage import Theme
 from modeviz.viewer.session.coloring import ColorScale
 

@@ -10,9 +10,9 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.html import FOR_ALL
-from modeviz.viewer.page.looking import let_all_use
+from modeviz.viewer.page.people.looking import let_all_use
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.html import FOR_ALL
 from modeviz.viewer.scene.stage import FAR, FIELD_OF_VIEW, ISO, NEAR, VIEWS, Box, camera
 from modeviz.viewer.session.view import CameraPose
 
@@ -85,7 +85,7 @@ class Cameras:
             initial.position, initial.look_at = begin.position, begin.look_at
         initial.fov = FIELD_OF_VIEW
         initial.near, initial.far = NEAR * box.length, FAR * box.length
-        scripts.run(server.scene, "page/css_pixels.js")
+        scripts.run(server.scene, "page/browser/css_pixels.js")
 
         @server.on_client_connect
         def _(client: viser.ClientHandle) -> None:

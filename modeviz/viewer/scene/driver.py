@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from modeviz.shapes.colors import Shade, stop_colors
 from modeviz.vehicle.arrays import Array
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import announce, assign, at_once
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import announce, assign, at_once
 
 PREFIX = "/_shape"
 """Where the hidden nodes of the meshes are; the rest of their name is their mesh's. Their position is

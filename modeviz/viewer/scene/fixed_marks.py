@@ -7,7 +7,7 @@ import viser
 from modeviz.errors import cut
 from modeviz.vehicle.loads import ResponsePoint
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.scene.labels import LABEL_LETTERS
 from modeviz.viewer.scene.mark_colors import BLUE
 from modeviz.viewer.scene.rings import ring

@@ -9,7 +9,7 @@ import numpy as np
 import viser
 
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page import scripts
+from modeviz.viewer.page.widgets import scripts
 
 PAUSE = 0.05
 """s between two places that followers are sent; pages glide from one to the next."""

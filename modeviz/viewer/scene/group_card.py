@@ -11,7 +11,7 @@ from modeviz.units import QuantityName, factor
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import MountRates
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.scene.mark_colors import SELECTED
 from modeviz.viewer.scene.mount_looks import has_springs
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import viser
 
-from modeviz.viewer.page import scripts
+from modeviz.viewer.page.widgets import scripts
 from modeviz.viewer.scene.stage import Theme
 
 LABEL_LETTERS = 24

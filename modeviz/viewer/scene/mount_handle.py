@@ -12,7 +12,7 @@ from viser.transforms import SO3
 from modeviz.vehicle.local_axes import TurnOrder, angles_of_axes, axes_of_angles
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.placement import Placement, mirrored_mounts
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.session.worker import Worker
 
 SIZE_PX = 90.0

@@ -11,7 +11,7 @@ from modeviz.errors import cut
 from modeviz.shapes.colors import Color
 from modeviz.vehicle.connections import Mount
 from modeviz.vehicle.mount_group import MountGroup
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.scene.labels import LABEL_LETTERS
 from modeviz.viewer.scene.mark_colors import RUBBER, SELECTED, STEEL
 from modeviz.viewer.scene.mount_looks import HEIGHT, RADIUS, mount_look

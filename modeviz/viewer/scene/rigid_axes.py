@@ -11,7 +11,7 @@ from modeviz.mounting.axes import Line
 from modeviz.shapes.colors import Color
 from modeviz.vehicle.arrays import Floats
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.scene.stage import Box, points_box
 from modeviz.viewer.session.rigid_look import Support
 

@@ -2,8 +2,8 @@
 
 import viser
 
-from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.page.layout import NARROW, WIDE
+from modeviz.viewer.page.widgets.hotkeys import Hotkeys
+from modeviz.viewer.page.widgets.layout import NARROW, WIDE
 from modeviz.viewer.panels.data_files import DataPanel
 from modeviz.viewer.panels.mounts.history_row import HistoryRow
 from modeviz.viewer.panels.mounts.opener import FolderOpener

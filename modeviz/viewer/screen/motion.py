@@ -5,7 +5,7 @@ from functools import partial
 
 import viser
 
-from modeviz.viewer.page.layout import NARROW, WIDE
+from modeviz.viewer.page.widgets.layout import NARROW, WIDE
 from modeviz.viewer.panels.animation import AnimationCard
 from modeviz.viewer.panels.modes import step_mode
 from modeviz.viewer.panels.shape import ShapePanel

@@ -5,7 +5,7 @@ from typing import Protocol
 import viser
 
 from modeviz.analysis.rubber import dynamic_groups
-from modeviz.viewer.page.layout import NARROW, WIDE
+from modeviz.viewer.page.widgets.layout import NARROW, WIDE
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.engine import EnginePanel
 from modeviz.viewer.panels.excitation import ExcitationPanel

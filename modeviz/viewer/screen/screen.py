@@ -2,9 +2,9 @@
 
 from functools import partial
 
-from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.page.layout import Layout
-from modeviz.viewer.page.title import Title
+from modeviz.viewer.page.widgets.hotkeys import Hotkeys
+from modeviz.viewer.page.widgets.layout import Layout
+from modeviz.viewer.page.widgets.title import Title
 from modeviz.viewer.panels.guide import Guide
 from modeviz.viewer.panels.modes import step_mode
 from modeviz.viewer.panels.review.panel import ReviewPanel

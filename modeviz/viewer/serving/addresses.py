@@ -10,9 +10,9 @@ from websockets.http11 import Request, Response
 
 from modeviz.journal.keys import digest_of
 from modeviz.journal.sessions import SessionId
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.cookies import cookies
+from modeviz.viewer.page.doors.cookies import cookies
 from modeviz.viewer.page.front import Front
+from modeviz.viewer.page.wire.connection import PageConnection
 from modeviz.viewer.serving.bench import Bench
 
 KEPT = 365 * 86400

@@ -9,15 +9,15 @@ from urllib.parse import urlsplit
 
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.acceptor import Acceptor
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.entry import NO_REVIEW
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.door import WHY
+from modeviz.viewer.page.doors.entry import NO_REVIEW
+from modeviz.viewer.page.doors.page_file import PageFile
 from modeviz.viewer.page.front import Front
-from modeviz.viewer.page.handshake import WHY
 from modeviz.viewer.page.one_page import PATHS
-from modeviz.viewer.page.page_file import PageFile
-from modeviz.viewer.page.request_head import query_of
+from modeviz.viewer.page.wire.acceptor import Acceptor
+from modeviz.viewer.page.wire.connection import PageConnection
+from modeviz.viewer.page.wire.request_head import query_of
 from modeviz.viewer.serving.addresses import Addresses
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.health import Health

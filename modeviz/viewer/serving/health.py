@@ -7,7 +7,7 @@ from importlib.metadata import version
 
 from websockets.http11 import Response
 
-from modeviz.viewer.page.answers import answer
+from modeviz.viewer.page.doors.answers import answer
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from modeviz.errors import ModevizError
 from modeviz.journal.keys import digest_of
 from modeviz.journal.sessions import SessionId, SessionLine
 from modeviz.text.wording import ago
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.handshake import Door
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.door import Door
 from modeviz.viewer.pictures.still import still, still_at_rest
 from modeviz.viewer.serving.addresses import Place
 from modeviz.viewer.serving.bench import Bench

@@ -7,9 +7,9 @@ from functools import partial
 from modeviz.analysis.results import drive
 from modeviz.compute.stop import Stop
 from modeviz.compute.threads import one_thread
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.page.front import open_front
-from modeviz.viewer.page.secret import Secret
-from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
 from modeviz.viewer.serving.bench import Bench
 from modeviz.viewer.serving.directory import Directory
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from html import escape
 from importlib.resources import files
 
-from modeviz.viewer.page.handshake import ICON
+from modeviz.viewer.page.doors.door import ICON
 
 
 @dataclass(frozen=True)

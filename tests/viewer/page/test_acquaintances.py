@@ -1,5 +1,5 @@
-from modeviz.viewer.page import acquaintances
-from modeviz.viewer.page.acquaintances import Acquaintances
+from modeviz.viewer.page.people import acquaintances
+from modeviz.viewer.page.people.acquaintances import Acquaintances
 
 
 def met(known, key, name="", is_owner=False, there=()):

@@ -1,6 +1,6 @@
 import pytest
 
-from modeviz.viewer.page.attendance import Attendance
+from modeviz.viewer.page.people.attendance import Attendance
 
 
 @pytest.fixture

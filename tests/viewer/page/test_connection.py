@@ -24,13 +24,15 @@ from visitors import (
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.frames import Frame, Opcode
 
-from modeviz.viewer.page import connection, front, guesses, house, pace
-from modeviz.viewer.page.connection import MOST_WRONG
-from modeviz.viewer.page.decoding import PART
-from modeviz.viewer.page.house import MOST_PAGES_OF_ONE
-from modeviz.viewer.page.pace import MOST_BYTES
+from modeviz.viewer.page import front
+from modeviz.viewer.page.doors import guesses
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.page.uploads import take_files_of
+from modeviz.viewer.page.wire import connection, house, pace
+from modeviz.viewer.page.wire.connection import MOST_WRONG
+from modeviz.viewer.page.wire.decoding import PART
+from modeviz.viewer.page.wire.house import MOST_PAGES_OF_ONE
+from modeviz.viewer.page.wire.pace import MOST_BYTES
+from modeviz.viewer.page.wire.uploads import take_files_of
 
 
 @contextmanager

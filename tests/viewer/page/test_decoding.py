@@ -9,8 +9,8 @@ import pytest
 from viser import _messages
 from visitors import CAMERA, PART_OF_FILE, encoded
 
-from modeviz.viewer.page import decoding
-from modeviz.viewer.page.decoding import (
+from modeviz.viewer.page.wire import decoding
+from modeviz.viewer.page.wire.decoding import (
     LARGEST_WRONG,
     MOST_ITEMS,
     MessageError,

@@ -4,7 +4,7 @@ import pytest
 from websockets import Headers
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.forwarded import NO_PROXIES, proxies_at
+from modeviz.viewer.page.wire.forwarded import NO_PROXIES, proxies_at
 
 OURS, THEIRS, STRANGER = "127.0.0.1", "10.1.2.3", "203.0.113.9"
 

@@ -6,7 +6,7 @@ from base64 import b64encode
 import pytest
 from visitors import PATIENCE_S, TOKEN, get, own_origin
 
-from modeviz.viewer.page.handshake import ALIVE, SUBPROTOCOL
+from modeviz.viewer.page.doors.door import ALIVE, SUBPROTOCOL
 from modeviz.viewer.page.server import open_server
 
 HUB, OTHER = "hub.example.com:8443", "https://evil.example"

@@ -7,10 +7,10 @@ import time
 import pytest
 from visitors import get, wait_until
 
-from modeviz.viewer.page import request_head
-from modeviz.viewer.page.answers import answer
+from modeviz.viewer.page.doors.answers import answer
 from modeviz.viewer.page.front import OPENED_AT_ONCE, open_front
-from modeviz.viewer.page.request_head import query_of
+from modeviz.viewer.page.wire import request_head
+from modeviz.viewer.page.wire.request_head import query_of
 
 MANY = 12
 

@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from modeviz.viewer.page.guesses import (
+from modeviz.viewer.page.doors.guesses import (
     DELAY,
     FREE_GUESSES,
     LOCKED_S,

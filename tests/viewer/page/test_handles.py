@@ -1,7 +1,7 @@
 import pytest
 
-from modeviz.viewer.page.handles import assign, send
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.page.widgets.handles import assign, send
 
 
 @pytest.fixture(scope="module")

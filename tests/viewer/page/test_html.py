@@ -1,4 +1,4 @@
-from modeviz.viewer.page.html import row, table
+from modeviz.viewer.page.widgets.html import row, table
 
 
 def test_a_table_has_its_chosen_row_marked():

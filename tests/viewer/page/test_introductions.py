@@ -5,7 +5,7 @@ from urllib.parse import urlencode
 
 import pytest
 
-from modeviz.viewer.page.introductions import LONGEST_NAME, introduction, is_review, person_name
+from modeviz.viewer.page.people.introductions import LONGEST_NAME, introduction, is_review, person_name
 
 KEY = "abcdefghij-KLMNOP_1234"
 

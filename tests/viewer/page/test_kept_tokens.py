@@ -5,7 +5,7 @@ import stat
 
 import pytest
 
-from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken, kept_token, kept_tokens
+from modeviz.viewer.page.doors.kept_tokens import LIFE_S, KeptToken, kept_token, kept_tokens
 
 DAY = 86400.0
 

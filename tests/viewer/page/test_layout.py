@@ -1,6 +1,6 @@
 import pytest
 
-from modeviz.viewer.page.layout import NARROW, NARROW_BELOW, WIDE, WIDE_ABOVE, fitting
+from modeviz.viewer.page.widgets.layout import NARROW, NARROW_BELOW, WIDE, WIDE_ABOVE, fitting
 
 
 @pytest.mark.parametrize(

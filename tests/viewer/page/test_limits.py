@@ -1,6 +1,6 @@
 import pytest
 
-from modeviz.viewer.page.limits import Allowance, Places, client_of, most_connections
+from modeviz.viewer.page.wire.limits import Allowance, Places, client_of, most_connections
 
 
 def test_one_client_takes_only_some_of_the_places_and_all_no_more_than_there_are():

@@ -3,7 +3,7 @@ import socket
 
 import pytest
 
-from modeviz.viewer.page.links import link, local_link
+from modeviz.viewer.page.doors.links import link, local_link
 from modeviz.viewer.page.server import open_server
 
 

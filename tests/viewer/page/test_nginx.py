@@ -13,9 +13,9 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from benchmarks.page_client import handshake
-from modeviz.viewer.page.guesses import MOST_GUESSES
+from modeviz.viewer.page.doors.guesses import MOST_GUESSES
+from modeviz.viewer.page.doors.surroundings import surroundings
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.page.surroundings import surroundings
 
 DOCS = Path(__file__).parents[3] / "docs" / "serving.md"
 
@@ -90,7 +90,7 @@ def test_through_it_no_other_site_gets_a_websocket_and_nobody_without_the_cookie
 
 def test_through_it_each_client_is_one(outside, monkeypatch):
     """Whatever they write into the header themselves."""
-    monkeypatch.setattr("modeviz.viewer.page.guesses.DELAY", 0.0)
+    monkeypatch.setattr("modeviz.viewer.page.doors.guesses.DELAY", 0.0)
     told = {"X-Forwarded-For": "127.0.0.9"}
     for _ in range(MOST_GUESSES):
         assert outside.get("/bench/?token=wrong", "127.0.0.3", **told)[0] == 403

@@ -2,7 +2,7 @@ import re
 
 from logs import log_to
 
-from modeviz.viewer.page.notices import LONGEST, MOST_LINES, Notices
+from modeviz.viewer.page.wire.notices import LONGEST, MOST_LINES, Notices
 
 
 def notices():

@@ -2,9 +2,9 @@ from functools import partial
 
 import pytest
 
-from modeviz.viewer.page import pace as rules
-from modeviz.viewer.page.limits import Allowance
-from modeviz.viewer.page.pace import MESSAGES_PER_S, MOST_BYTES, MOST_MESSAGES, HurryError, Pace
+from modeviz.viewer.page.wire import pace as rules
+from modeviz.viewer.page.wire.limits import Allowance
+from modeviz.viewer.page.wire.pace import MESSAGES_PER_S, MOST_BYTES, MOST_MESSAGES, HurryError, Pace
 
 FILE = int(MOST_BYTES)
 

@@ -4,11 +4,11 @@ import pytest
 from visitors import TOKEN, get, knock, wait_until
 from websockets.exceptions import InvalidStatus
 
-from modeviz.viewer.page.guesses import MOST_GUESSES
-from modeviz.viewer.page.house import MOST_PAGES_OF_ONE
-from modeviz.viewer.page.limits import Places
+from modeviz.viewer.page.doors.guesses import MOST_GUESSES
+from modeviz.viewer.page.doors.surroundings import surroundings
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.page.surroundings import surroundings
+from modeviz.viewer.page.wire.house import MOST_PAGES_OF_ONE
+from modeviz.viewer.page.wire.limits import Places
 
 PUBLIC = {"X-Forwarded-Host": "tool.example.com", "X-Forwarded-Proto": "https"}
 
@@ -44,7 +44,7 @@ def test_a_name_that_a_proxy_was_asked_by_counts_as_the_servers_if_it_is_one(pro
 
 
 def test_who_guesses_through_a_proxy_is_locked_out_and_others_behind_it_are_not(proxied, monkeypatch):
-    monkeypatch.setattr("modeviz.viewer.page.guesses.DELAY", 0.0)
+    monkeypatch.setattr("modeviz.viewer.page.doors.guesses.DELAY", 0.0)
     for _ in range(MOST_GUESSES):
         get(proxied, "/?token=wrong", **{"X-Forwarded-For": "203.0.113.9"})
     status = {}

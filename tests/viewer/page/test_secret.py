@@ -5,8 +5,8 @@ from test_kept_tokens import Clock
 from visitors import TOKEN, wait_until
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.kept_tokens import LIFE_S
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.kept_tokens import LIFE_S
+from modeviz.viewer.page.doors.secret import Secret
 
 
 @pytest.fixture

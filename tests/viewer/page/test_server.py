@@ -17,12 +17,12 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from benchmarks.page_client import messages as decoded
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.handshake import WHY
-from modeviz.viewer.page.house import MOST_OPENINGS
-from modeviz.viewer.page.kept_tokens import LIFE_S, KeptToken
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.door import WHY
+from modeviz.viewer.page.doors.kept_tokens import LIFE_S, KeptToken
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import surroundings
 from modeviz.viewer.page.server import open_server
-from modeviz.viewer.page.surroundings import surroundings
+from modeviz.viewer.page.wire.house import MOST_OPENINGS
 
 
 @pytest.fixture(scope="module")

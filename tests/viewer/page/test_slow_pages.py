@@ -10,8 +10,8 @@ import pytest
 from visitors import CAMERA, encoded, visit, wait_until
 
 from benchmarks.slow_page import slow_page
-from modeviz.viewer.page import slow_readers
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.page.wire import slow_readers
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@
 import pytest
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.surroundings import surroundings
+from modeviz.viewer.page.doors.surroundings import surroundings
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,9 @@
 import pytest
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.kept_tokens import kept_token
-from modeviz.viewer.page.secret import chosen_secret
-from modeviz.viewer.page.tokens import checked_token, is_equal
+from modeviz.viewer.page.doors.kept_tokens import kept_token
+from modeviz.viewer.page.doors.secret import chosen_secret
+from modeviz.viewer.page.doors.tokens import checked_token, is_equal
 
 GIVEN, OF_FILE, OF_ENVIRONMENT = "given-on-the-line", "read-from-the-file", "found-outside-of-it"
 

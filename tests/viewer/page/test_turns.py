@@ -5,7 +5,7 @@ from contextvars import copy_context
 import pytest
 from visitors import wait_until
 
-from modeviz.viewer.page.turns import MOST_OF_ONE, N_THREADS, Turns, page_heard
+from modeviz.viewer.page.wire.turns import MOST_OF_ONE, N_THREADS, Turns, page_heard
 
 
 @pytest.fixture

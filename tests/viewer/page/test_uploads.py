@@ -4,8 +4,8 @@ import pytest
 import viser
 from viser import _messages
 
-from modeviz.viewer.page.decoding import PART
-from modeviz.viewer.page.uploads import (
+from modeviz.viewer.page.wire.decoding import PART
+from modeviz.viewer.page.wire.uploads import (
     LARGEST_FILE,
     LARGEST_IN_ALL,
     MOST_AT_ONCE,

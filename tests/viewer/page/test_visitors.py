@@ -7,7 +7,7 @@ from guests import all_is_heard, guest, hand_over, heard, opened, take_back
 from visitors import knock, own_origin, update, wait_until
 from websockets.exceptions import ConnectionClosed
 
-from modeviz.viewer.page import visitors as module
+from modeviz.viewer.page.people import visitors as module
 from modeviz.viewer.page.server import open_server
 
 ANNA, BEN = "anna-anna-anna-anna-1", "ben-ben-ben-ben-ben-2"

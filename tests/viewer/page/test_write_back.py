@@ -4,9 +4,9 @@ from types import SimpleNamespace
 import pytest
 from visitors import wait_until
 
-from modeviz.viewer.page import write_back as settle
-from modeviz.viewer.page.turns import page_heard
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets import write_back as settle
+from modeviz.viewer.page.widgets.write_back import WriteBack
+from modeviz.viewer.page.wire.turns import page_heard
 
 
 class Page:

@@ -11,7 +11,7 @@ from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
-from modeviz.viewer.page.html import HiddenButtons
+from modeviz.viewer.page.widgets.html import HiddenButtons
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.mounts.folder import GroupFolder
 from modeviz.viewer.session.session import Session

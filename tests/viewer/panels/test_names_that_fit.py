@@ -6,8 +6,8 @@ from html import escape
 import pytest
 from mounted_cabin import mounted_cabin
 
-from modeviz.viewer.page.html import TWO_LINES, named
-from modeviz.viewer.page.title import PANEL_LETTERS, panel_label
+from modeviz.viewer.page.widgets.html import TWO_LINES, named
+from modeviz.viewer.page.widgets.title import PANEL_LETTERS, panel_label
 from modeviz.viewer.session.responses import curve_label
 from modeviz.viewer.session.state import ResponseCurve
 

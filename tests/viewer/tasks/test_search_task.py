@@ -18,7 +18,7 @@ from modeviz.scatter import searching
 from modeviz.scatter.tolerance import Tolerance, scattered_parts
 from modeviz.scatter.worst_case import goals
 from modeviz.vehicle.mount_rates import MountRates
-from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.wire.notices import Notices
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.planning.plan import planned
 from modeviz.viewer.tasks import background_task

@@ -12,11 +12,11 @@ from modeviz.text.wording import number, significant, told_apart
 from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import DIRECTIONS, MountRates
-from modeviz.viewer.page.alerts import refuse
 from modeviz.viewer.page.binding import Binding, Write, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.mounts.absorber_draft import (
     ALONG,
     AbsorberDraft,

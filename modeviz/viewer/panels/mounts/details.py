@@ -9,9 +9,9 @@ from modeviz.text.wording import signed
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import MountRates, Rates
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign, mark
-from modeviz.viewer.page.html import block, named, row, span, table
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign, mark
+from modeviz.viewer.page.widgets.html import block, named, row, span, table
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.mounts.effects import Effect, Effects
 from modeviz.viewer.panels.mounts.placing import Placing
 from modeviz.viewer.panels.mounts.rows import row_label

@@ -11,9 +11,9 @@ from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.mounts.absorber_form import AbsorberDetails, GivenAbsorber
 from modeviz.viewer.panels.mounts.details import Details
 from modeviz.viewer.panels.mounts.effects import Effects, in_a_sentence

@@ -8,10 +8,10 @@ import viser
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.mount_rates import Rates
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.hotkeys import Hotkeys
-from modeviz.viewer.page.question import ask
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.hotkeys import Hotkeys
+from modeviz.viewer.page.widgets.question import ask
 from modeviz.viewer.session.author import NotOnesOwnError
 from modeviz.viewer.session.commands.decisions import ResetGroups
 from modeviz.viewer.session.session import Session

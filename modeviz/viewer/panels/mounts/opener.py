@@ -9,8 +9,8 @@ from html import escape
 
 import viser
 
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import assign
 
 
 class FolderOpener:

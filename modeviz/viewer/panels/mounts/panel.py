@@ -7,7 +7,7 @@ from modeviz.report.rate_fields import fields_of_groups, quantity
 from modeviz.units import QuantityName
 from modeviz.vehicle.vehicle import Vehicle
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.panels.mounts.absorber_form import AbsorberForm
 from modeviz.viewer.panels.mounts.effects import Effects, effects
 from modeviz.viewer.panels.mounts.folder import GroupFolder

@@ -6,7 +6,7 @@ import viser
 from modeviz.vehicle.local_axes import AXES
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.session.commands.decisions import PlaceMounts, ResetPlacement
 from modeviz.viewer.session.commands.looks import ChangeLook
 from modeviz.viewer.session.session import Session

@@ -12,8 +12,8 @@ from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_group import MountGroup
 from modeviz.vehicle.mount_rates import Rates
 from modeviz.viewer.page.binding import Binding
-from modeviz.viewer.page.handles import assign, mark
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign, mark
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.mounts.travel import Travel, travel
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.design import STIFFEST, known_sets

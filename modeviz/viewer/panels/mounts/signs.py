@@ -5,7 +5,7 @@ from html import escape
 import viser
 
 from modeviz.vehicle.mount_rates import RATE_FIELDS
-from modeviz.viewer.page.html import HiddenButtons, span
+from modeviz.viewer.page.widgets.html import HiddenButtons, span
 from modeviz.viewer.session.commands.decisions import ResetGroups, ResetRate, ToggleLock
 from modeviz.viewer.session.session import Session
 

@@ -9,7 +9,7 @@ import viser
 
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.mount_rates import DIRECTIONS
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint
 from modeviz.viewer.session.planning.load_plan import LoadPlan
 from modeviz.viewer.session.planning.plan import Plan

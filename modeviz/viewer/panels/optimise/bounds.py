@@ -13,7 +13,7 @@ from modeviz.text.wording import in_a_box, sentence_case
 from modeviz.units import QuantityName, factor
 from modeviz.vehicle.mount_rates import DAMPING_FIELDS, RATE_FIELDS, STIFFNESS_FIELDS
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.panels.optimise.controls import Pills, PlanControls, complaint, may_change_hint
 from modeviz.viewer.session.planning.group_plan import Ratios
 from modeviz.viewer.session.planning.plan import Plan

@@ -9,9 +9,9 @@ import viser
 
 from modeviz.errors import VehicleError
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block, span
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import HiddenButtons, block, span
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.mounts.rows import DECIMALS
 from modeviz.viewer.session.commands.decisions import ChangePlan
 from modeviz.viewer.session.planning.plan import Plan

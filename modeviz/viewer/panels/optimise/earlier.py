@@ -8,9 +8,9 @@ from html import escape
 import viser
 
 from modeviz.journal.runs import Run, RunKind
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, heading, hinted, span
-from modeviz.viewer.page.named_buttons import NamedButtons
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, heading, hinted, span
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.tasks.earlier_runs import design_of, front_of, scatter_of

@@ -16,8 +16,8 @@ from modeviz.text.wording import file_name, sentence_case
 from modeviz.vehicle.default_problem import problem_called, problems
 from modeviz.vehicle.problem import GoalKind
 from modeviz.vehicle.vehicle import Vehicle
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
 from modeviz.viewer.panels.modes import listed
 from modeviz.viewer.panels.optimise.accelerations import AccelerationsEditor
 from modeviz.viewer.panels.optimise.bounds import BoundsEditor

@@ -7,7 +7,7 @@ import viser
 
 from modeviz.text.axes import Axis, round_top
 from modeviz.vehicle.arrays import Floats
-from modeviz.viewer.page.handles import send_together
+from modeviz.viewer.page.widgets.handles import send_together
 from modeviz.viewer.panels.plots import FONT, GRID, NO_TICKS, SET_COLORS
 from modeviz.viewer.tasks.search_task import SearchStatus
 

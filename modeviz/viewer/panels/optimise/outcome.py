@@ -10,7 +10,7 @@ from modeviz.optimise.run import Optimum
 from modeviz.report.space import outside_words
 from modeviz.report.truncation import at_rates, is_large
 from modeviz.text.wording import sentence_case, signed, significant
-from modeviz.viewer.page.html import change, heading, row, span, table
+from modeviz.viewer.page.widgets.html import change, heading, row, span, table
 from modeviz.viewer.panels.status import ALARMING, percent
 from modeviz.viewer.tasks.search_task import SearchStatus
 

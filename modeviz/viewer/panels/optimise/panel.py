@@ -8,9 +8,9 @@ import viser
 
 from modeviz.errors import ModevizError, VehicleError
 from modeviz.vehicle.default_problem import problems
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import block, span
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import block, span
 from modeviz.viewer.panels.optimise.editor import ProblemEditor
 from modeviz.viewer.panels.optimise.fall import FallChart
 from modeviz.viewer.panels.optimise.outcome import exactness, figures, limits, truncation, where

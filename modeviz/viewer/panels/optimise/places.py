@@ -5,7 +5,7 @@ import viser
 from modeviz.files.schema.scaling import written
 from modeviz.optimise.place_variables import UNITS, Kind
 from modeviz.vehicle.local_axes import AXES
-from modeviz.viewer.page.handles import assign
+from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.panels.optimise.controls import PlanControls
 from modeviz.viewer.session.planning.plan import Plan
 from modeviz.viewer.session.session import Session

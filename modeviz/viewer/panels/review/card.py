@@ -6,12 +6,12 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.acquaintances import Visitor
-from modeviz.viewer.page.handles import assign, name_of
-from modeviz.viewer.page.html import block
-from modeviz.viewer.page.visitors import Visitors
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.people.acquaintances import Visitor
+from modeviz.viewer.page.people.visitors import Visitors
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.handles import assign, name_of
+from modeviz.viewer.page.widgets.html import block
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.panels.review.presence import Presence, linked, listing
 from modeviz.viewer.session.session_title import SessionTitle
 
@@ -114,7 +114,7 @@ class ReviewCard:
         said = {"text": text, "actions": actions, "looks": not now.has_control}
         if said != self._said:
             self._said = said
-            scripts.run(self._client.gui, "page/presence.js", said)
+            scripts.run(self._client.gui, "page/browser/presence.js", said)
 
     def _turn(self) -> None:
         """Follows or not, as the checkbox says, which this page may have set by turning its camera."""
@@ -127,7 +127,7 @@ class ReviewCard:
         visitor = self._visitors.rename(self._client.client_id, self._name.value)
         if visitor:
             assign(self._name, value=visitor.name)
-            scripts.run(self._client.gui, "page/remember_name.js", visitor.name)
+            scripts.run(self._client.gui, "page/browser/remember_name.js", visitor.name)
 
     def _name_session(self) -> None:
         if not (self._you and self._you.is_owner):
@@ -157,7 +157,7 @@ class ReviewCard:
         except ModevizError as refusal:
             self._client.add_notification("Not shared", str(refusal), color="red")
         else:
-            scripts.run(self._client.gui, "page/copy.js", link)
+            scripts.run(self._client.gui, "page/browser/copy.js", link)
 
     def _give(self, number: int | None) -> None:
         if number is None or self._visitors.hand_over(self._client.client_id, number) is None:

@@ -8,8 +8,8 @@ from functools import partial
 
 import viser
 
-from modeviz.viewer.page import scripts
 from modeviz.viewer.page.server import Server
+from modeviz.viewer.page.widgets import scripts
 from modeviz.viewer.panels.review.card import ReviewCard
 from modeviz.viewer.panels.review.presence import Presence
 from modeviz.viewer.session.session_title import SessionTitle
@@ -90,4 +90,4 @@ class ReviewPanel:
         client, now = self._server.get_clients().get(page), time.monotonic()
         if client is not None and now - self._pointed_out.get(page, -math.inf) > 0.5:
             self._pointed_out[page] = now
-            scripts.run(client.gui, "page/refused.js")
+            scripts.run(client.gui, "page/browser/refused.js")

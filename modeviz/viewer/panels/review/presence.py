@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 
-from modeviz.viewer.page.acquaintances import Visitor
-from modeviz.viewer.page.html import heading, named, row, span, table
+from modeviz.viewer.page.people.acquaintances import Visitor
+from modeviz.viewer.page.widgets.html import heading, named, row, span, table
 
 
 @dataclass(frozen=True)

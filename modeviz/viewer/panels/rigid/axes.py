@@ -6,7 +6,7 @@ from modeviz.analysis.rigid import BodyAxes
 from modeviz.report.rigid import axis_rows, torque_word, vector
 from modeviz.shapes.colors import Color
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page.html import heading, hinted, row, span, table
+from modeviz.viewer.page.widgets.html import heading, hinted, row, span, table
 from modeviz.viewer.scene.rigid_axes import CENTER, FOCUS, ROLL, TORQUE
 from modeviz.viewer.session.answers import Solved
 

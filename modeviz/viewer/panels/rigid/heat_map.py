@@ -7,7 +7,7 @@ from modeviz.mounting.purity import Gap, Purity
 from modeviz.report.rigid import gap_words, percent
 from modeviz.text.wording import sentence_case
 from modeviz.vehicle.connections import MOTIONS
-from modeviz.viewer.page.html import (
+from modeviz.viewer.page.widgets.html import (
     HiddenButtons,
     heading,
     hinted,

@@ -10,8 +10,8 @@ from modeviz.text.wording import sentence_case, told_apart
 from modeviz.vehicle.absorbers import carrying_bodies
 from modeviz.vehicle.decoupling import Axes
 from modeviz.viewer.page.binding import Binding, Read, Write, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.html import HiddenButtons, block
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.html import HiddenButtons, block
 from modeviz.viewer.panels.rigid.axes import axes_content
 from modeviz.viewer.panels.rigid.heat_map import heat_map, verdicts
 from modeviz.viewer.panels.rigid.targets import TargetsEditor

@@ -7,8 +7,8 @@ import viser
 from modeviz.files.records.decoupling import decoupling_text
 from modeviz.text.wording import file_name
 from modeviz.viewer.page.binding import Binding, show_all
-from modeviz.viewer.page.handles import assign
-from modeviz.viewer.page.write_back import WriteBack
+from modeviz.viewer.page.widgets.handles import assign
+from modeviz.viewer.page.widgets.write_back import WriteBack
 from modeviz.viewer.session.commands.decisions import ChangeTargets
 from modeviz.viewer.session.session import Session
 

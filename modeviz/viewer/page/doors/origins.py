@@ -8,8 +8,8 @@ from urllib.parse import parse_qsl, urlsplit
 
 from websockets.http11 import Request
 
-from modeviz.viewer.page.request_head import is_websocket
-from modeviz.viewer.page.surroundings import Surroundings
+from modeviz.viewer.page.doors.surroundings import Surroundings
+from modeviz.viewer.page.wire.request_head import is_websocket
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 REFUSED_PARAMETERS = ("websocket", "playbackPath")

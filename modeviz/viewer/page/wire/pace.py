@@ -2,7 +2,7 @@
 
 import time
 
-from modeviz.viewer.page.limits import Allowance
+from modeviz.viewer.page.wire.limits import Allowance
 
 MESSAGES_PER_S, MOST_MESSAGES = 100.0, 300.0
 """A page sends at most 20 a second for a widget and 50 for its camera."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import viser
 from viser._messages import HotkeyKey, KeyModifier
 
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.looking import let_all_use
+from modeviz.viewer.page.people.looking import let_all_use
+from modeviz.viewer.page.widgets import scripts
 
 SPOKEN = {"space": "Space", "cmd/ctrl": "Ctrl", "shift": "Shift"}
 """Keys as the guide writes them."""
@@ -32,7 +32,7 @@ class Hotkeys:
         """Starts without any."""
         self._gui = gui
         self._listed: list[Hotkey] = []
-        scripts.run(gui, "page/keys.js")
+        scripts.run(gui, "page/browser/keys.js")
 
     @property
     def listed(self) -> tuple[Hotkey, ...]:

@@ -8,9 +8,9 @@ import viser
 
 from modeviz.errors import ModevizError
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import assign, name_of
-from modeviz.viewer.page.html import hidden
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import assign, name_of
+from modeviz.viewer.page.widgets.html import hidden
 
 Name = TypeVar("Name", bound=Hashable)
 

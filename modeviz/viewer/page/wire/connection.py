@@ -11,12 +11,12 @@ from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 
-from modeviz.viewer.page.decoding import LARGEST_MESSAGE, MessageError, TooMuchError, checked
-from modeviz.viewer.page.house import House
-from modeviz.viewer.page.limits import Places, client_of
-from modeviz.viewer.page.pace import HurryError, Pace
-from modeviz.viewer.page.slow_readers import ReadingWatch, hold_little
-from modeviz.viewer.page.turns import MOST_WAITING, Turns, page_heard
+from modeviz.viewer.page.wire.decoding import LARGEST_MESSAGE, MessageError, TooMuchError, checked
+from modeviz.viewer.page.wire.house import House
+from modeviz.viewer.page.wire.limits import Places, client_of
+from modeviz.viewer.page.wire.pace import HurryError, Pace
+from modeviz.viewer.page.wire.slow_readers import ReadingWatch, hold_little
+from modeviz.viewer.page.wire.turns import MOST_WAITING, Turns, page_heard
 
 LONGEST_WAIT = 8.0
 """s for a place among them, before a client would give up."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeviz.files.state_folder import state_folder
-from modeviz.viewer.page.tokens import LONGEST, SHORTEST, new_token
+from modeviz.viewer.page.doors.tokens import LONGEST, SHORTEST, new_token
 
 LIFE_S = 30 * 86400.0
 """How long one is kept after a server has last asked for it."""

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from modeviz.viewer.page.acquaintances import Acquaintances, Visitor
+from modeviz.viewer.page.people.acquaintances import Acquaintances, Visitor
 
 
 class Attendance:

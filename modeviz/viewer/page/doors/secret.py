@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.kept_tokens import LIFE_S, kept_token
-from modeviz.viewer.page.tokens import checked_token, is_equal, new_token, token_of
+from modeviz.viewer.page.doors.kept_tokens import LIFE_S, kept_token
+from modeviz.viewer.page.doors.tokens import checked_token, is_equal, new_token, token_of
 
 VARIABLE = "MODEVIZ_TOKEN"
 """Of the environment."""

@@ -9,13 +9,13 @@ from weakref import WeakSet
 
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.cookies import cookies, give_cookie
-from modeviz.viewer.page.guesses import Guesses
-from modeviz.viewer.page.kept_tokens import LIFE_S, RENEWED_S
-from modeviz.viewer.page.request_head import is_websocket, query_of
-from modeviz.viewer.page.secret import Secret
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.cookies import cookies, give_cookie
+from modeviz.viewer.page.doors.guesses import Guesses
+from modeviz.viewer.page.doors.kept_tokens import LIFE_S, RENEWED_S
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.wire.connection import PageConnection
+from modeviz.viewer.page.wire.request_head import is_websocket, query_of
 
 NO_TOKEN = "open the whole link that modeviz printed, with its token"
 NO_REVIEW = "this review has ended: ask who shared it for a new link"

@@ -14,9 +14,10 @@ import viser
 from websockets import Headers
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.handshake import ICON, SUBPROTOCOL, WHY, Door
+from modeviz.viewer.page.doors.door import ICON, SUBPROTOCOL, WHY, Door
 
 PAGE = Path(viser.__file__).parent / "client" / "build" / "index.html"
+CONNECTING = "page/browser/connecting.js"
 
 Scheme = Literal["light", "dark", "light dark"]
 
@@ -65,7 +66,7 @@ def named_page(page: bytes | bytearray, title: str) -> bytes:
 
 def _explained(page: bytes, scheme: Scheme) -> bytes:
     """Return a page that says what is wrong while its websocket is not open."""
-    function = files("modeviz.viewer.page").joinpath("connecting.js").read_text("utf-8").rstrip()
+    function = files("modeviz.viewer").joinpath(CONNECTING).read_text("utf-8").rstrip()
     given = ", ".join(map(json.dumps, (WHY, SUBPROTOCOL, scheme)))
     script = f"<script>({function})({given});</script>"
     before, head, after = page.partition(b"<head>")

@@ -12,16 +12,16 @@ from websockets import Headers
 from websockets.asyncio.server import ServerConnection
 from websockets.http11 import Request, Response
 
-from modeviz.viewer.page.answers import answer
-from modeviz.viewer.page.connection import PageConnection
-from modeviz.viewer.page.content_policy import content_policy
-from modeviz.viewer.page.cookies import give_cookie
-from modeviz.viewer.page.entry import Entry, missing, port_of
-from modeviz.viewer.page.forwarded import Asked
-from modeviz.viewer.page.origins import Origins
-from modeviz.viewer.page.request_head import is_websocket, query_of
-from modeviz.viewer.page.secret import Secret
-from modeviz.viewer.page.surroundings import NOTHING_AROUND, Surroundings
+from modeviz.viewer.page.doors.answers import answer
+from modeviz.viewer.page.doors.content_policy import content_policy
+from modeviz.viewer.page.doors.cookies import give_cookie
+from modeviz.viewer.page.doors.entry import Entry, missing, port_of
+from modeviz.viewer.page.doors.origins import Origins
+from modeviz.viewer.page.doors.secret import Secret
+from modeviz.viewer.page.doors.surroundings import NOTHING_AROUND, Surroundings
+from modeviz.viewer.page.wire.connection import PageConnection
+from modeviz.viewer.page.wire.forwarded import Asked
+from modeviz.viewer.page.wire.request_head import is_websocket, query_of
 
 OTHER_VERSION = "this page is of another version of modeviz: load it again"
 BUSY = "many pages are being opened: this one is tried again"

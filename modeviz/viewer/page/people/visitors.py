@@ -16,12 +16,12 @@ from viser.infra import WebsockClientConnection
 from websockets.frames import CloseCode
 
 from modeviz.text.wording import sentence_case
-from modeviz.viewer.page.acquaintances import Visitor
-from modeviz.viewer.page.attendance import Attendance
-from modeviz.viewer.page.connection import PageConnection, connection_of
-from modeviz.viewer.page.introductions import introduction, is_review, person_name
-from modeviz.viewer.page.sharing import Share, Sharing
-from modeviz.viewer.page.turns import page_heard
+from modeviz.viewer.page.people.acquaintances import Visitor
+from modeviz.viewer.page.people.attendance import Attendance
+from modeviz.viewer.page.people.introductions import introduction, is_review, person_name
+from modeviz.viewer.page.people.sharing import Share, Sharing
+from modeviz.viewer.page.wire.connection import PageConnection, connection_of
+from modeviz.viewer.page.wire.turns import page_heard
 from modeviz.viewer.session.author import OWNER, Author
 
 ENDED = "the review has ended: ask for another link"

@@ -1,7 +1,7 @@
 """What a page may do, and who may show it in a frame, as browsers are told."""
 
-from modeviz.viewer.page.origins import LOOPBACK
-from modeviz.viewer.page.surroundings import Surroundings
+from modeviz.viewer.page.doors.origins import LOOPBACK
+from modeviz.viewer.page.doors.surroundings import Surroundings
 
 ANCESTORS = " ".join(
     [

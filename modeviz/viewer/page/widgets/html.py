@@ -17,7 +17,7 @@ TWO_LINES = 32
 
 def style_sheet() -> str:
     """The rules of the page's one style sheet."""
-    return files("modeviz.viewer.page").joinpath("style.css").read_text("utf-8")
+    return files("modeviz.viewer").joinpath("page/browser/style.css").read_text("utf-8")
 
 
 def block(*content: str) -> str:

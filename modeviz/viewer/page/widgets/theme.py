@@ -2,8 +2,8 @@
 
 import viser
 
-from modeviz.viewer.page import scripts
-from modeviz.viewer.page.html import style_sheet
+from modeviz.viewer.page.widgets import scripts
+from modeviz.viewer.page.widgets.html import style_sheet
 
 BRAND = {False: (32, 104, 168), True: (64, 146, 214)}
 """By darkness, of what can be pressed: the light page's blue is too dim in the dark."""
@@ -17,8 +17,8 @@ def dress(gui: viser.GuiApi, dark: bool, *own_scripts: str) -> None:
         dark: whether they are.
         *own_scripts: that these pages have besides those of all.
     """
-    scripts.run(gui, "page/style.js", style_sheet())
-    for script in ("page/delivery.js", "page/zoom.js", *own_scripts):
+    scripts.run(gui, "page/browser/style.js", style_sheet())
+    for script in ("page/browser/delivery.js", "page/browser/zoom.js", *own_scripts):
         scripts.run(gui, script)
     gui.configure_theme(
         dark_mode=dark, show_logo=False, show_share_button=False, brand_color=BRAND[dark]

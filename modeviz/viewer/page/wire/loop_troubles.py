@@ -8,7 +8,7 @@ from typing import Any
 from websockets.asyncio.server import ServerConnection
 from websockets.exceptions import ConnectionClosed
 
-from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.wire.notices import Notices
 
 Handler = Callable[[ServerConnection], Coroutine[Any, Any, None]]
 

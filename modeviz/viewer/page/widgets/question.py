@@ -7,10 +7,10 @@ from html import escape
 import viser
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.alerts import refuse
-from modeviz.viewer.page.handles import GuiModalHandle
-from modeviz.viewer.page.html import block
-from modeviz.viewer.page.looking import leave_to_control
+from modeviz.viewer.page.people.looking import leave_to_control
+from modeviz.viewer.page.widgets.alerts import refuse
+from modeviz.viewer.page.widgets.handles import GuiModalHandle
+from modeviz.viewer.page.widgets.html import block
 
 LEAVE = "Leave it as it is"
 

@@ -6,7 +6,7 @@ import viser
 from viser import _messages
 from viser.infra import ClientId
 
-from modeviz.viewer.page.decoding import PART
+from modeviz.viewer.page.wire.decoding import PART
 
 LARGEST_FILE = 1_000_000
 """Bytes: a hundred times what a set of rates takes."""

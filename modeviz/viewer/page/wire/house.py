@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from modeviz.viewer.page.forwarded import NO_PROXIES, Proxies
-from modeviz.viewer.page.limits import Allowance, Places, most_connections
-from modeviz.viewer.page.notices import Notices
+from modeviz.viewer.page.wire.forwarded import NO_PROXIES, Proxies
+from modeviz.viewer.page.wire.limits import Allowance, Places, most_connections
+from modeviz.viewer.page.wire.notices import Notices
 
 MOST_OF_ONE = 200
 """Connections of one client: a browser opens six for a page, and colleagues may share a proxy."""

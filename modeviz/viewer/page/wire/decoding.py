@@ -9,7 +9,7 @@ from typing import Annotated
 
 import msgspec
 
-from modeviz.viewer.page.single_png import is_single_png
+from modeviz.viewer.page.wire.single_png import is_single_png
 
 LONGEST_TEXT = 4000
 LONGEST_NAME = 255

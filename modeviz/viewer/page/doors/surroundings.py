@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from modeviz.errors import ModevizError
-from modeviz.viewer.page.forwarded import NO_PROXIES, Proxies, proxies_at
+from modeviz.viewer.page.wire.forwarded import NO_PROXIES, Proxies, proxies_at
 
 NAME = re.compile(r"[\w.-]+", re.ASCII)
 ORIGIN = re.compile(r"https?://(?:[\w.-]+|\[[0-9a-f:.]+\])(?::\d{1,5})?", re.ASCII)
