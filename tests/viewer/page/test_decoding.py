@@ -3,6 +3,7 @@
 import math
 import struct
 import tracemalloc
+from contextlib import suppress
 
 import msgspec.msgpack
 import pytest
@@ -130,6 +131,15 @@ def test_text_and_what_is_no_msgpack_is_refused():
     for raw in ("text", b"", b"\xc1", b"\x81"):
         with pytest.raises(MessageError):
             checked(raw)
+
+
+def test_texts_that_are_no_utf_8_are_refused_wherever_they_are():
+    raw = encoded(UPDATE)
+    for place in range(len(raw)):
+        with suppress(MessageError):
+            checked(raw[:place] + b"\xe5" + raw[place + 1 :])
+    with pytest.raises(MessageError):
+        checked(raw.replace(b"uuid", b"uu\xe5d"))
 
 
 def test_a_kind_that_is_said_twice_is_not_read_in_two_ways():

@@ -197,6 +197,6 @@ def checked(raw: bytes | str) -> bytes:
         return msgspec.msgpack.encode(_decoder.decode(raw))
     except RecursionError:
         raise TooMuchError("too deep") from None
-    except msgspec.MsgspecError as error:
+    except (msgspec.MsgspecError, UnicodeDecodeError) as error:
         refused = MessageError if len(raw) <= LARGEST_WRONG else TooMuchError
         raise refused(str(error)) from None
