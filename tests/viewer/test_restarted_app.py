@@ -101,6 +101,24 @@ def test_camera_and_motion_are_there_after_a_restart(tmp_path):
     study.close()
 
 
+def test_a_camera_that_is_where_the_session_was_left_is_kept_there():
+    """As a page says that opens: it begins where viser's do, and goes where ours do."""
+    app = opened(Opening(FIRST, camera=CAMERA))
+    begun = CameraPose((3.0, 3.0, 3.0), (0.0, 0.0, 0.0))
+    try:
+        with visit(app.server) as socket:
+            socket.send(encoded(CAMERA_MESSAGE))
+            for pose in (begun, CAMERA):
+                end = time.monotonic() + SOON
+                while app.keeping.camera != pose:
+                    assert time.monotonic() < end
+                    where = {"position": pose.position, "look_at": pose.look_at}
+                    socket.send(encoded({**CAMERA_MESSAGE, **where}))
+                    time.sleep(0.1)
+    finally:
+        app.close()
+
+
 def test_what_the_page_links_to_opens_the_same_view():
     begin = Opening(FIRST, animation=MOVING, camera=CAMERA, remarks=("mount group 'C' is gone",))
     app = opened(begin)

@@ -154,15 +154,22 @@ class Cameras:
     def _follow(self, client: viser.ClientHandle) -> None:
         """Keeps a camera framed that nobody has moved, and tells where it was left."""
         self._keep_framed(client)
-        if self._is_led(client.client_id):
-            return
+        if not self._is_led(client.client_id):
+            self._left(client.client_id, self._where_left(client))
+
+    def _where_left(self, client: viser.ClientHandle) -> CameraPose | None:
+        """Return where a camera is; None: where the page keeps it framed by itself.
+
+        A page that opens tells of a place of viser's first, and then of that where pages begin.
+        """
         position, look_at = client.camera.position, client.camera.look_at
         with self._lock:
             _, put = self._views.get(client.client_id, (ISO, None))
         if put is not None and self._is_at(position, put):
-            self._left(client.client_id, None)
-        elif not self._is_at(position, self._server.initial_camera.position):
-            self._left(client.client_id, pose_of(position, look_at))
+            return None
+        if self._is_at(position, self._server.initial_camera.position):
+            return self._begin
+        return pose_of(position, look_at)
 
     def _keep_framed(self, client: viser.ClientHandle) -> None:
         """Looks again when the picture's shape has changed, unless somebody has moved the camera.
