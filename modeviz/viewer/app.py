@@ -1,6 +1,7 @@
 """The page of a tuning session as a whole: what its parts are, and what goes from one to another."""
 
 from collections.abc import Callable
+from contextlib import ExitStack
 
 from modeviz.analysis.results import Conditions
 from modeviz.errors import ModevizError
@@ -100,6 +101,7 @@ class App:
                 dark,
             )
         )
+        self.screen.controls.earlier.show_newest()
 
     def start(self, progress: Callable[[float], None] | None = None) -> None:
         """Prepares the vehicle, which the page shows, and asks for the first answer.
@@ -134,12 +136,13 @@ class App:
         self._failures.tell(failed)
 
     def end(self) -> None:
-        """Ends the session, and what may be running in it."""
-        self.tasks.close()
-        self.scene.close()
-        self.screen.close()
-        self.session.close()
-        self.keeping.close()  # last: until pages are told, they go on
+        """Ends the session and what may be running in it; where some of that fails, the rest, too."""
+        with ExitStack() as ending:
+            ending.callback(self.keeping.close)  # last: until pages are told, they go on
+            ending.callback(self.session.close)
+            ending.callback(self.screen.close)
+            ending.callback(self.scene.close)
+            ending.callback(self.tasks.close)
 
     def close(self) -> None:
         """Ends the session and the server, also where the first goes wrong."""

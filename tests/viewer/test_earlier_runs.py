@@ -78,10 +78,11 @@ def study(file):
     study.close()
 
 
-def test_front_and_band_are_drawn_when_the_session_is_opened_again(file, study):
+def test_front_and_band_are_drawn_when_the_session_is_opened_again(file, study, caplog):
     _, said, (front, scatter) = file
     app = opened(study)
     try:
+        assert [each.message for each in caplog.records if each.levelname == "ERROR"] == []
         assert (
             text(app.screen.controls.trade_off._front),
             text(app.screen.controls.scatter._text),

@@ -2,6 +2,7 @@
 
 import time
 
+import pytest
 from every_command import ABSORBERS, FORE_AFT, VEHICLE
 from opened_app import SOON, text
 from visitors import CAMERA as CAMERA_MESSAGE
@@ -78,6 +79,22 @@ def test_what_is_done_until_the_page_is_told_of_the_end_is_there_after_a_restart
         recorded(study, KEY, FIRST, VEHICLE, PRINT.digest).state.design.rates["B"].lateral == 123456.0
     )
     study.close()
+
+
+def test_all_else_is_closed_though_the_scene_does_not_close(monkeypatch):
+    app, closed = opened(Opening(FIRST)), []
+    parts = {"keeping": app.keeping, "session": app.session, "screen": app.screen, "tasks": app.tasks}
+    for name, part in parts.items():
+
+        def close(name=name, close=part.close):
+            closed.append(name)
+            close()
+
+        monkeypatch.setattr(part, "close", close)
+    monkeypatch.setattr(app.scene, "close", lambda: [].pop())
+    with pytest.raises(IndexError):
+        app.close()
+    assert closed == ["tasks", "screen", "session", "keeping"]
 
 
 def test_camera_and_motion_are_there_after_a_restart(tmp_path):

@@ -3,17 +3,19 @@
 import threading
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 
 import viser
 
 from modeviz.journal.runs import Run, RunKind
+from modeviz.journal.tuning import Pinned
 from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.page.widgets.html import block, heading, hinted, span
 from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.commands.decisions import TakeDesign
 from modeviz.viewer.session.session import Session
-from modeviz.viewer.tasks.earlier_runs import design_of, front_of, scatter_of
+from modeviz.viewer.tasks.earlier_runs import Front, Scattering, design_of, front_of, scatter_of
 from modeviz.viewer.tasks.front_task import FrontTask
 from modeviz.viewer.tasks.scatter_task import ScatterTask
 
@@ -30,6 +32,26 @@ HINTS: dict[RunKind, str] = {
 }
 
 
+@dataclass(frozen=True)
+class _Earlier:
+    """A run, and what is kept of what it found."""
+
+    run: Run
+    front: Front | None
+    scatter: Scattering | None
+    design: Pinned | None
+
+    @classmethod
+    def of(cls, run: Run) -> "_Earlier":
+        """Reads what a run found."""
+        return cls(run, front_of(run), scatter_of(run), design_of(run))
+
+    @property
+    def can_be_shown(self) -> bool:
+        """Whether anything is kept."""
+        return any((self.front, self.scatter, self.design))
+
+
 class EarlierRuns:
     """The lines; nothing where there are no runs."""
 
@@ -41,7 +63,7 @@ class EarlierRuns:
         scatterer: ScatterTask,
         runs: Sequence[Run],
     ) -> None:
-        """Lists runs, and shows the newest front and scatter.
+        """Lists runs.
 
         Args:
             gui: where.
@@ -52,21 +74,23 @@ class EarlierRuns:
         """
         self._session, self._trader, self._scatterer = session, trader, scatterer
         self._lock = threading.Lock()
-        self._runs: dict[str, Run] = {}
+        self._runs: dict[str, _Earlier] = {run.token: _Earlier.of(run) for run in runs[-MOST:]}
         self._buttons = NamedButtons[str](gui, self._show)
         self._list = gui.add_html("")
-        for run in runs[-MOST:]:
-            self._runs[run.token] = run
         self._draw()
+
+    def show_newest(self) -> None:
+        """Shows the newest front and scatter, once the panels that draw them are there."""
         for kind in SHOWN_AT_ONCE:
-            newest = [run for run in self._runs.values() if run.kind == kind and _can_be_shown(run)]
+            runs = self._runs.values()
+            newest = [each for each in runs if each.run.kind == kind and each.can_be_shown]
             if newest:
-                self._show(newest[-1].token)
+                self._show(newest[-1].run.token)
 
     def add(self, run: Run) -> None:
         """Lists one more; may be called in any thread."""
         with self._lock:
-            self._runs = dict([*self._runs.items(), (run.token, run)][-MOST:])
+            self._runs = dict([*self._runs.items(), (run.token, _Earlier.of(run))][-MOST:])
         self._draw()
 
     def _show(self, token: str) -> None:
@@ -75,20 +99,20 @@ class EarlierRuns:
         Raises:
             ModevizError: another one is running, or the vehicle has not what it found any more.
         """
-        run = self._runs.get(token)
-        if run is None:
+        earlier = self._runs.get(token)
+        if earlier is None:
             return
-        if front := front_of(run):
-            self._trader.show(front)
-        if scatter := scatter_of(run):
-            self._scatterer.show(scatter)
-        if design := design_of(run):
-            self._session.do(TakeDesign(design.rates, design.placements))
+        if earlier.front:
+            self._trader.show(earlier.front)
+        if earlier.scatter:
+            self._scatterer.show(earlier.scatter)
+        if earlier.design:
+            self._session.do(TakeDesign(earlier.design.rates, earlier.design.placements))
 
     def _draw(self) -> None:
         with self._lock:
-            self._buttons.keep([token for token, run in self._runs.items() if _can_be_shown(run)])
-            lines = [self._line(run) for run in reversed(self._runs.values())]
+            self._buttons.keep([token for token, each in self._runs.items() if each.can_be_shown])
+            lines = [self._line(each.run) for each in reversed(self._runs.values())]
             assign(self._list, content=block(heading("Earlier"), *lines) if lines else "")
 
     def _line(self, run: Run) -> str:
@@ -98,8 +122,3 @@ class EarlierRuns:
         if run.token in self._buttons:
             text = self._buttons.label(run.token, hinted(text, HINTS[run.kind]))
         return f"<div>{text} {span(escape(f'{when}{who}'), 'dim')}</div>"
-
-
-def _can_be_shown(run: Run) -> bool:
-    """Whether what a run found is kept."""
-    return any((front_of(run), scatter_of(run), design_of(run)))
