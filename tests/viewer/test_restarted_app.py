@@ -12,13 +12,17 @@ from modeviz.analysis.results import Conditions
 from modeviz.journal.fingerprint import fingerprint_of
 from modeviz.journal.study_file import StudyFile, _tell_all
 from modeviz.viewer.app import App
+from modeviz.viewer.keeping import Keeping
 from modeviz.viewer.page.server import open_server
+from modeviz.viewer.screen.screen import Screen
 from modeviz.viewer.session.commands import decisions, looks
 from modeviz.viewer.session.encoding.link import opening_of_link
 from modeviz.viewer.session.opening import Opening
 from modeviz.viewer.session.recorded import recorded
+from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import ForceCurve, first_state
 from modeviz.viewer.session.view import Animation, CameraPose
+from modeviz.viewer.tasks.tasks import Tasks
 
 FLAT = Conditions("flat", 20.0)
 FIRST = first_state(VEHICLE, VEHICLE.rates, FLAT)
@@ -83,18 +87,17 @@ def test_what_is_done_until_the_page_is_told_of_the_end_is_there_after_a_restart
 
 def test_all_else_is_closed_though_the_scene_does_not_close(monkeypatch):
     app, closed = opened(Opening(FIRST)), []
-    parts = {"keeping": app.keeping, "session": app.session, "screen": app.screen, "tasks": app.tasks}
-    for name, part in parts.items():
+    for kind in (Keeping, Session, Screen, Tasks):
 
-        def close(name=name, close=part.close):
-            closed.append(name)
-            close()
+        def close(part, close=kind.close):
+            closed.append(part)
+            close(part)
 
-        monkeypatch.setattr(part, "close", close)
+        monkeypatch.setattr(kind, "close", close)
     monkeypatch.setattr(app.scene, "close", lambda: [].pop())
     with pytest.raises(IndexError):
         app.close()
-    assert closed == ["tasks", "screen", "session", "keeping"]
+    assert closed == [app.tasks, app.screen, app.session, app.keeping]
 
 
 def test_camera_and_motion_are_there_after_a_restart(tmp_path):
