@@ -30,8 +30,8 @@ class Precedence:
 
     Steps have their turns in the order in which they ask. The first in the queue waits for answers at
     most `LONGEST`, and one that takes longer than that, which may hang, keeps no other waiting: with n
-    before it a step goes on after 2 n + 1 times that at the latest. An answer that takes longer counts
-    no more, either. Who is alone never waits.
+    before it a step goes on after 2 n + 1 times that, and as many looks, at the latest. An answer that
+    takes longer counts no more, either. Who is alone never waits.
     """
 
     def __init__(self, longest: float = LONGEST) -> None:
@@ -70,21 +70,26 @@ class Precedence:
         """Waits for one's turn to do a step of background work within; gives whether it has come.
 
         Args:
-            is_wanted: asked now and then; once it is not, there is no more waiting and no turn.
+            is_wanted: asked now and then; once it is not, there is no more waiting and no turn. What it
+                raises ends the waiting too, and holds nobody up.
         """
         mine = _Place(threading.Condition(self._lock))
-        with self._lock:
-            self._queue.append(mine)
-            while (wanted := is_wanted()) and not self._may_go(mine):
-                mine.turn.wait(min(LOOKS_EVERY, self._longest))
-            mine.is_at_work, mine.until = wanted, time.monotonic() + self._longest
         try:
-            yield wanted
+            yield self._has_come(mine, is_wanted)
         finally:
             with self._lock:
                 if mine in self._queue:
                     self._queue.remove(mine)
                 self._call_next()
+
+    def _has_come(self, mine: _Place, is_wanted: Callable[[], bool]) -> bool:
+        """Queues until one may go; whether that is still wanted then."""
+        with self._lock:
+            self._queue.append(mine)
+            while (wanted := is_wanted()) and not self._may_go(mine):
+                mine.turn.wait(min(LOOKS_EVERY, self._longest))
+            mine.is_at_work, mine.until = wanted, time.monotonic() + self._longest
+            return wanted
 
     def _may_go(self, place: _Place) -> bool:
         now = time.monotonic()

@@ -3,10 +3,11 @@
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 
 import pytest
 
-from modeviz.compute.precedence import LOOKS_EVERY, Precedence
+from modeviz.compute.precedence import Precedence
 
 SOON, LONG = 20, 1000.0
 
@@ -31,13 +32,20 @@ def take(precedence, done, name, is_wanted=lambda: True):
 
 
 def test_a_step_waits_for_every_answer_that_is_being_made(threads):
-    precedence, done = Precedence(LONG), []
+    precedence, done, looks = Precedence(LONG), [], threading.Semaphore(0)
+
+    def is_wanted():
+        looks.release()
+        return True
+
     with precedence.answer():
         with precedence.answer():
-            step = threads.submit(take, precedence, done, "step")
+            step = threads.submit(take, precedence, done, "step", is_wanted)
             waits(precedence)
         done.append("one answer")
-        time.sleep(2 * LOOKS_EVERY)  # it looks meanwhile
+        while looks.acquire(blocking=False):
+            pass
+        assert all(looks.acquire(timeout=SOON) for _ in "ab")  # it looks in vain before the second
         done.append("other answer")
     step.result(SOON)
     assert done == ["one answer", "other answer", ("step", True)]
@@ -56,22 +64,24 @@ def test_steps_go_one_at_a_time_in_the_order_in_which_they_ask(threads):
     assert done == ["first", *((i, True) for i in range(5))]
 
 
-def test_answers_hold_a_step_up_no_longer_than_that():
-    precedence, done = Precedence(0.05), []
-    stop = threading.Event()
-
-    def answer_on():
-        while not stop.is_set():
-            with precedence.answer():
-                time.sleep(0.001)
-
-    busy = [threading.Thread(target=answer_on) for _ in range(3)]
-    for thread in busy:
-        thread.start()
-    take(precedence, done, "step")
-    stop.set()
-    for thread in busy:
-        thread.join()
+def test_answers_hold_a_step_up_no_longer_than_that(threads):
+    """Also where at all times there is one that does not take long."""
+    precedence, done = Precedence(0.3), []
+    end = time.monotonic() + SOON
+    with ExitStack() as first:
+        first.enter_context(precedence.answer())
+        open_one = first.pop_all()
+        step = threads.submit(take, precedence, done, "step")
+        while not step.done() and time.monotonic() < end:
+            with ExitStack() as next_one:
+                next_one.enter_context(precedence.answer())
+                open_one.close()
+                open_one = next_one.pop_all()
+            time.sleep(0.001)
+        is_done_meanwhile = step.done()
+        open_one.close()
+    step.result(SOON)
+    assert is_done_meanwhile
     assert done == [("step", True)]
 
 
@@ -111,6 +121,18 @@ def test_a_step_that_fails_lets_the_next_go():
         raise ValueError("by mistake")
     take(precedence, done, "next")
     assert done == [("next", True)]
+
+
+def test_a_step_that_fails_as_it_waits_leaves_the_queue():
+    precedence, done = Precedence(LONG), []
+
+    def fail():
+        raise ValueError("by mistake")
+
+    with pytest.raises(ValueError, match="by mistake"):
+        take(precedence, done, "step", fail)
+    assert not precedence._queue
+    assert not done
 
 
 def test_answers_are_contended_while_there_are_two_that_do_not_hang():
