@@ -4,6 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 
 from modeviz.analysis.results import Results
@@ -11,16 +12,13 @@ from modeviz.errors import ModevizError
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.findings import Findings
 from modeviz.viewer.session.followed_mode import DETAILS_EVERY
-from modeviz.viewer.session.inquiry import GIVEN_UP, Inquiry
+from modeviz.viewer.session.inquiry import GIVEN_UP, STEPS_WITHIN, Inquiry
 from modeviz.viewer.session.shared import Shared
 from modeviz.viewer.session.state import State
 from modeviz.viewer.session.worker import StuckError, Worker
 
 REST = 0.3
 """s without a change after which an answer is checked: longer than the pauses within a drag."""
-
-STEPS_WITHIN = 300.0
-"""s: a step of a check that takes longer hangs."""
 
 TELL_EVERY = 0.5
 """s between two words on how far a check is."""
@@ -58,6 +56,8 @@ class Inspector:
         self._inquiry: Inquiry | None = None
         self._is_done = False
         """Whether there is no more to do about the newest answer."""
+        self._problem = ""
+        """Why this session looks no further into it, if so; others may."""
         self._told_at = 0.0
         self._worker: Worker[Solved] = Worker(self._look_into, fail, patience, self._leave)
 
@@ -66,8 +66,8 @@ class Inspector:
         with self._lock:
             if self._inquiry is None or self._inquiry.findings.now is not now:
                 self._inquiry = self._shared.beginnings.inquiry(now)
-                self._is_done = False
-            return self._inquiry.findings
+                self._is_done, self._problem = False, ""
+            return self._known(self._inquiry)
 
     def submit(self, solved: Solved) -> None:
         """Has an answer looked into, unless all is known of it and done."""
@@ -89,8 +89,8 @@ class Inspector:
         if inquiry is None or not self._rests(solved, DETAILS_EVERY):
             return
         if not solved.is_detailed:
-            self._in_turn(solved, partial(self._found, True))
-        is_known = inquiry.findings.is_complete and self._is_done
+            self._found(True)
+        is_known = self._known(inquiry).is_complete and self._is_done
         if is_known or not self._rests(solved, REST):
             return
         try:
@@ -102,11 +102,12 @@ class Inspector:
         self._give_up(solved, error)
 
     def _give_up(self, solved: Solved, error: Exception) -> None:
-        """Tells of our mistake, and looks no further into what it happened with."""
+        """Tells of our mistake, and looks no further into what it happened with; others may."""
+        is_newest = self._inquiry_into(solved) is not None
+        if is_newest:
+            self._is_done, self._problem = True, GIVEN_UP
         self._fail(error)
-        if inquiry := self._inquiry_into(solved):
-            self._is_done = True
-            inquiry.give_up(GIVEN_UP)
+        if is_newest:
             self._found(False)
 
     def _find_out(self, solved: Solved, inquiry: Inquiry) -> None:
@@ -117,9 +118,10 @@ class Inspector:
         told = self._advance(solved, inquiry, solved.findings)
         with suppress(ModevizError):
             self._in_turn(solved, partial(self._rebase, solved.state))
-        while self._is_current(solved) and not inquiry.findings.is_complete:
+        while self._is_wanted(solved) and not inquiry.findings.is_complete:
             told = self._advance(solved, inquiry, told)
-        self._is_done = self._is_current(solved)
+        if self._is_wanted(solved):
+            self._is_done = True
 
     def _advance(self, solved: Solved, inquiry: Inquiry, told: Findings) -> Findings:
         """Finds out more, and tells it unless little of it is new; returns what is told by then."""
@@ -135,9 +137,18 @@ class Inspector:
     def _in_turn(self, solved: Solved, step: Callable[[], None]) -> None:
         """Does a step once nobody waits for an answer, if it is still wanted then."""
         self._worker.sign()
-        with self._shared.precedence.step(partial(self._is_current, solved)) as is_wanted:
+        with self._shared.precedence.step(partial(self._is_wanted, solved)) as is_wanted:
             if is_wanted:
                 step()
+
+    def _is_wanted(self, solved: Solved) -> bool:
+        """Whether the calling thread, unless it was left behind, is to look further into an answer."""
+        return self._worker.is_heard and self._is_current(solved)
+
+    def _known(self, inquiry: Inquiry) -> Findings:
+        """Return what is known, with why this session finds out no more where others still may."""
+        known = inquiry.findings
+        return known if known.is_complete else replace(known, problem=self._problem)
 
     def _inquiry_into(self, solved: Solved) -> Inquiry | None:
         """Return what looks into an answer, if it still is the newest."""

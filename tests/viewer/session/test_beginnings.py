@@ -1,7 +1,9 @@
 """What sessions of a vehicle have in common, and when they do what nobody waits for."""
 
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,11 +16,15 @@ from modeviz.analysis.results import Conditions, drive, solve
 from modeviz.compute.precedence import Precedence
 from modeviz.vehicle.alterations import Alterations
 from modeviz.viewer.serving.bench import Bench
-from modeviz.viewer.session import beginnings, inquiry
+from modeviz.viewer.session import answer_loop, beginnings, inquiry, once
+from modeviz.viewer.session.answer_loop import AnswerLoop
 from modeviz.viewer.session.beginnings import Beginnings
 from modeviz.viewer.session.commands.decisions import SetRate
-from modeviz.viewer.session.inquiry import Inquiry
+from modeviz.viewer.session.inquiry import GIVEN_UP, Inquiry
+from modeviz.viewer.session.inspector import Inspector
+from modeviz.viewer.session.notifications import Failed
 from modeviz.viewer.session.session import Session
+from modeviz.viewer.session.worker import StuckError
 
 SOON = 20
 FLAT = Conditions("flat", 20.0)
@@ -33,9 +39,9 @@ def bench():
 @pytest.fixture
 def opened(bench):
     """Opens a session of the cabin; gives it and what it tells."""
-    sessions, precedence = [], Precedence(1000.0)
+    sessions, patient = [], Precedence(1000.0)
 
-    def opened():
+    def opened(precedence=patient):
         told = []
         state, shared = bench.opening().state, bench.shared(precedence)
         sessions.append(Session(bench.vehicle, state, told.append, shared=shared))
@@ -141,12 +147,13 @@ def test_what_nobody_waits_for_comes_after_the_answers_of_all_sessions(opened):
     n_told, precedence = len(told), session._loop._precedence
     with precedence.answer():
         session.do(SetRate("A", "lateral", 290e3))
-        wait_until(lambda: precedence._queue)
-        quick = told[n_told].solved
-        assert len(told) == n_told + 1
+        wait_until(lambda: precedence._queue and len(told) > n_told + 1)
+        quick, read = (each.solved for each in told[n_told:])
         assert quick.now.rates["A"].lateral == 290e3
         assert not quick.is_detailed
-        assert quick.findings.sensitivity is None
+        assert read.now is quick.now
+        assert read.is_detailed  # for tables somebody waits
+        assert read.findings.sensitivity is None
     assert session.wait_checked(SOON)
     assert session.answer.now is quick.now
     assert session.answer.is_detailed
@@ -166,3 +173,87 @@ def test_a_session_that_is_asked_for_more_gives_its_turn_up(opened):
     assert session.wait_checked(SOON)
     assert session.answer.now.rates["A"].lateral == 2e5
     assert session.answer.findings.is_complete
+
+
+@pytest.fixture
+def threads():
+    with ThreadPoolExecutor(4) as threads:
+        yield threads
+
+
+@pytest.fixture
+def hang(monkeypatch, threads):
+    """Has the first call of something hang; gives what says that it does."""
+    may_end = threading.Event()
+
+    def hang(owner, name):
+        whole, has_begun = getattr(owner, name), threading.Event()
+
+        def hanging(*arguments):
+            if not has_begun.is_set():
+                has_begun.set()
+                may_end.wait(2 * SOON)
+            return whole(*arguments)
+
+        monkeypatch.setattr(owner, name, hanging)
+        return has_begun
+
+    monkeypatch.setattr(once, "WAITS", 0.05)
+    yield hang
+    may_end.set()
+
+
+@pytest.mark.parametrize("name", ["drive", "solve_on"])
+def test_a_session_that_hangs_as_it_begins_holds_up_no_other(opened, hang, threads, name):
+    has_begun, precedence = hang(beginnings, name), Precedence(0.05)
+    threads.submit(opened, precedence)
+    assert has_begun.wait(SOON)
+    other, _ = threads.submit(opened, precedence).result(SOON)
+    assert other.wait_checked(SOON)
+    assert other.answer.findings.is_complete
+    assert not other.answer.findings.problem
+
+
+def test_an_answer_does_not_wait_for_what_makes_others_cheap(hang, threads, monkeypatch):
+    cabin = mounted_cabin()
+    prepared, common = prepare(cabin), Beginnings(FLAT, [cabin.rates])
+    known = common.drive(prepared, Alterations(), FLAT)
+    has_begun = hang(Prepared, "near")
+    monkeypatch.setattr(once, "WAITS", 1000.0)
+    threads.submit(common.near, prepared, cabin.rates)
+    assert has_begun.wait(SOON)
+    assert threads.submit(common.solve, known, cabin.rates).result(SOON).prepared is prepared
+
+
+def check_only_the_first_is_spoilt(opened, error):
+    precedence = Precedence(0.05)
+    first, told = opened(precedence)
+    assert first.wait_checked(SOON)
+    failures = [each.error for each in told if isinstance(each, Failed)]
+    assert [type(each) for each in failures] == [error]
+    assert first.answer.findings.problem == GIVEN_UP
+    second, told = opened(precedence)
+    assert second.wait_checked(SOON)
+    assert second.answer.now is first.answer.now
+    assert second.answer.findings.is_complete
+    assert not second.answer.findings.problem
+    assert not [each for each in told if isinstance(each, Failed)]
+
+
+def test_what_fails_in_one_session_is_found_out_by_the_others(opened, monkeypatch):
+    failed, rebase = [], AnswerLoop._rebase
+
+    def fail_once(loop, state):
+        if not failed:
+            failed.append(loop)
+            raise IndexError("a bug")
+        rebase(loop, state)
+
+    monkeypatch.setattr(AnswerLoop, "_rebase", fail_once)
+    check_only_the_first_is_spoilt(opened, IndexError)
+
+
+def test_what_hangs_in_one_session_is_found_out_by_the_others(opened, hang, monkeypatch):
+    hang(Prepared, "near")
+    monkeypatch.setattr(answer_loop, "Inspector", partial(Inspector, patience=1.5))
+    check_only_the_first_is_spoilt(opened, StuckError)
