@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from sqlite3 import Connection
 from typing import Literal
 
@@ -11,7 +11,7 @@ from modeviz.journal.schema import next_id
 from modeviz.journal.tuning import Tuning
 
 LONGEST = 500
-"""So many changes of a session can be undone after a restart."""
+"""So many changes of a session can be undone, before a restart and after it."""
 
 Kind = Literal["step", "longer", "back", "undo", "redo"]
 """A "step" can be undone; a "longer" one is the last step that goes on, as while dragging; one that
@@ -112,13 +112,15 @@ def _put(connection: Connection, change: Change) -> tuple[int, int, int]:
     return before, after, differences
 
 
-def _insert(connection: Connection, session: int, change: Change, place: str, now: float) -> None:
+def _insert(connection: Connection, session: int, change: Change, place: str, now: float) -> int:
+    """Writes a change as a line of its own; returns its id."""
     before, after, differences = _put(connection, change)
+    number = next_id(connection)
     connection.execute(
         "INSERT INTO change (id, session, time, author, maker, kind, title, differences, place,"
         " before, after) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         (
-            next_id(connection),
+            number,
             session,
             now,
             change.author,
@@ -131,6 +133,7 @@ def _insert(connection: Connection, session: int, change: Change, place: str, no
             after if place else None,
         ),
     )
+    return number
 
 
 def _last(connection: Connection, session: int, place: str) -> int | None:
@@ -171,6 +174,8 @@ def _move(
 ) -> None:
     """Undoes or redoes a step, whose states are those of looks then and now."""
     step = _last(connection, session, place)
+    if step is None:
+        step = _put_missing(connection, session, change, now)
     held = _contents(connection, step)
     before, after, _ = _put(connection, change)
     connection.execute(
@@ -178,6 +183,19 @@ def _move(
     )
     _insert(connection, session, change, "", now)
     drop_unheld(connection, *held)
+
+
+def _put_missing(connection: Connection, session: int, change: Change, now: float) -> int:
+    """Writes the step that a change undoes or redoes, which is not there; returns its id.
+
+    What was undone already gets greater ids: it is redone after that step.
+    """
+    step = _insert(connection, session, replace(change, kind="step"), "done", now)
+    query = "SELECT id FROM change WHERE session = ? AND place = 'undone' ORDER BY id"
+    for (undone,) in connection.execute(query, (session,)).fetchall():
+        new = next_id(connection)
+        connection.execute("UPDATE change SET id = ? WHERE id = ?", (new, undone))
+    return step
 
 
 def _remove(connection: Connection, step: int | None) -> None:

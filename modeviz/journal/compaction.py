@@ -13,6 +13,9 @@ INVERSE = {"undo": "redo", "redo": "undo"}
 GOES_ON = ("step", "longer")
 """Kinds that a longer change is one with."""
 
+ENDS = (*GOES_ON, "undo")
+"""Kinds after which it is known whether something can be redone: of what was before nothing is."""
+
 
 def compacted(changes: Sequence[Change]) -> tuple[Change, ...]:
     """Return changes after which the same can be undone and redone, `LONGEST` steps far.
@@ -35,16 +38,22 @@ def _put(kept: list[Change], change: Change) -> None:
     last = kept[-1].kind if kept else ""
     if change.kind == "longer" and last in GOES_ON:
         kept[-1] = replace(change, kind=kept[-1].kind)
-    elif change.kind == "back" and last in GOES_ON:
-        kept.pop()
-        if last == "longer":  # of a step that was there before
-            kept.append(change)
-    elif INVERSE.get(change.kind) == last:
+    elif change.kind == "back" and last == "longer":  # of a step that was there before
+        kept[-1] = change
+    elif INVERSE.get(change.kind) == last or (
+        (last, change.kind) == ("step", "back") and not _may_redo(kept[:-1])
+    ):
         kept.pop()
     else:
         if change.kind == "step":
             _forget_undone(kept)
         kept.append(change)
+
+
+def _may_redo(kept: Sequence[Change]) -> bool:
+    """Whether steps may be at hand to be redone, which any other step makes unreachable."""
+    last = next((change.kind for change in reversed(kept) if change.kind in ENDS), "undo")
+    return last == "undo"
 
 
 def _forget_undone(kept: list[Change]) -> None:
@@ -62,7 +71,8 @@ def _forget_undone(kept: list[Change]) -> None:
 
 def _with_first_merged(kept: Sequence[Change]) -> tuple[Change, ...]:
     """Makes one of the first steps that follow each other, of those that nobody can undo."""
-    numbers = [i for i, change in enumerate(kept) if change.kind == "step"][:-LONGEST]
+    stay = [i for i, change in enumerate(kept) if change.kind == "step" and not _is_back(kept, i + 1)]
+    numbers = stay[:-LONGEST]
     steps = [kept[i] for n, i in enumerate(numbers) if i == numbers[0] + n]
     if len(steps) < 2:
         return tuple(kept)
@@ -74,6 +84,10 @@ def _with_first_merged(kept: Sequence[Change]) -> tuple[Change, ...]:
         maker=steps[0].maker if len({step.maker for step in steps}) == 1 else "",
     )
     return (*kept[: numbers[0]], merged, *kept[numbers[0] + len(steps) :])
+
+
+def _is_back(kept: Sequence[Change], i: int) -> bool:
+    return i < len(kept) and kept[i].kind == "back"
 
 
 def _merged(steps: Sequence[Change]) -> tuple[Difference, ...]:

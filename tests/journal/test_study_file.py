@@ -57,6 +57,22 @@ def test_a_new_step_drops_what_was_undone(path):
     assert (session.past, session.future) == ((Step("state 1", "state 5"),), ())
 
 
+def test_a_step_that_is_not_there_is_redone_and_undone_without_another_one(path):
+    first, missing = Step("state 0", "state 1"), Step("state 1", "state 2")
+    session = left(path, change(0, 1), change(1, 2, "redo"))
+    assert (session.past, session.future) == ((first, missing), ())
+    session = left(path, change(1, 2, "undo"))
+    assert (session.past, session.future) == ((first,), (missing,))
+
+
+def test_a_step_that_is_not_there_is_undone_before_those_that_were_undone_already(path):
+    session = left(path, change(1, 2), change(1, 2, "undo"), change(0, 1, "undo"))
+    assert session.future == (Step("state 1", "state 2"), Step("state 0", "state 1"))
+    session = left(path, change(0, 1, "redo"))
+    assert session.past == (Step("state 0", "state 1"),)
+    assert session.future == (Step("state 1", "state 2"),)
+
+
 def test_a_drag_is_one_step(path):
     session = left(path, change(1, 2), *(change(1, 2 + i / 10, "longer") for i in range(9)))
     assert session.past == (Step("state 1", "state 2.8"),)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import takewhile
 from typing import Literal, Protocol, TypeVar
 
+from modeviz.journal.changes import LONGEST
 from modeviz.viewer.session.author import OWNER, Author
 from modeviz.viewer.session.design import Design
 from modeviz.viewer.session.state import State
@@ -14,8 +15,6 @@ Value = TypeVar("Value")
 
 MERGE_WITHIN = 1.0
 """s: changes of one step that follow so closely, such as a drag, are undone together."""
-
-LONGEST = 500
 
 
 class Step(Protocol):
@@ -139,15 +138,23 @@ class History:
         return Moment(self.state, tuple(self._past), tuple(self._future), self._step, self._changed_at)
 
     def put_back(self, moment: Moment) -> tuple[Accepted, ...]:
-        """Goes to a moment before, as if nothing had happened since."""
-        pairs = zip(self._past, moment.past, strict=False)
-        n_kept = sum(1 for _ in takewhile(lambda pair: pair[0] is pair[1], pairs))
+        """Goes to a moment before, as if nothing had happened since.
+
+        Returns:
+            What leads there for those who follow the changes one by one, with all that can be undone
+            and redone then.
+        """
+        n_kept = _n_same(self._past, moment.past)
         gone, again = self._past[n_kept:], moment.past[n_kept:]
         told = (
             *(Accepted("back", change) for change in reversed(gone)),
             *(Accepted("step", change) for change in again),
-            Accepted("look", Change(self.state, moment.state)),
         )
+        n_undone = len(moment.future)
+        is_same = len(self._future) == n_undone == _n_same(self._future, moment.future)
+        if not is_same or (again and n_undone):
+            told = (*self._without_future(), *told, *_undone(moment.future))
+        told = (*told, Accepted("look", Change(self.state, moment.state)))
         self.state, self._past, self._future = moment.state, [*moment.past], [*moment.future]
         self._step, self._changed_at = moment.step, moment.changed_at
         return told
@@ -198,8 +205,27 @@ class History:
         self._past.append(Change(before, self.state, change.author))
         return Accepted("redo", self._past[-1])
 
+    def _without_future(self) -> tuple[Accepted, ...]:
+        """A step that leads nowhere and is taken back: after it nothing can be redone."""
+        nowhere = Change(self.state, self.state)
+        return Accepted("step", nowhere), Accepted("back", nowhere)
+
     def _go(self, old: State, new: State) -> None:
         self.state, self._step = self._settled(self.state.design, merged(self.state, old, new)), None
+
+
+def _undone(future: Sequence[Step]) -> tuple[Accepted, ...]:
+    """Steps that are made and undone again, so that they can be redone, the last one first."""
+    return (
+        *(Accepted("step", change) for change in reversed(future)),
+        *(Accepted("undo", change) for change in future),
+    )
+
+
+def _n_same(some: Sequence[Step], others: Sequence[Step]) -> int:
+    """With how many of the same steps two rows of them begin."""
+    pairs = zip(some, others, strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] is pair[1], pairs))
 
 
 def merged(value: Value, old: Value, new: Value) -> Value:

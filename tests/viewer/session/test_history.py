@@ -5,6 +5,7 @@ from mounted_cabin import mounted_cabin
 from session_commands import altered
 
 from modeviz.analysis.results import Conditions
+from modeviz.journal.changes import LONGEST
 from modeviz.viewer.session import history
 from modeviz.viewer.session.author import Author
 from modeviz.viewer.session.design import Variant
@@ -102,12 +103,12 @@ def test_nothing_new_is_no_step():
 
 def test_a_long_history_forgets_its_beginning():
     bench = Bench(0)
-    for value in range(1, 2 * history.LONGEST):
+    for value in range(1, 2 * LONGEST):
         bench.put(value)
     steps = 0
     while bench.history.undo():
         steps += 1
-    assert steps == history.LONGEST
+    assert steps == LONGEST
 
 
 def test_changes_may_follow_each_other_slowly_if_that_is_said(clock):

@@ -223,6 +223,60 @@ def test_what_a_failed_solve_took_back_is_not_there_after_a_restart(bench):
     assert session.state.design.rates["A"].lateral == 1e5
 
 
+def test_what_can_be_redone_is_the_same_after_a_restart_when_a_change_was_taken_back(bench):
+    session = bench.session
+    for name in ("X", "A"):
+        session.do(decisions.Pin(name))
+    session.undo()
+    good = session._asked.moment
+    session.do(decisions.Pin("B"))
+    assert session._asked.take_back(session.state, good)
+    session.redo()
+    session.undo()
+    before = bench.moment
+    bench.restart()
+    assert bench.moment == before
+    bench.session.redo()
+    assert [*bench.session.state.design.variants] == ["X", "A"]
+    bench.session.undo()
+    bench.session.undo()
+    assert not bench.session.state.design.variants
+
+
+def test_what_was_undone_since_the_moment_gone_back_to_cannot_be_redone_after_a_restart(bench):
+    bench.session.do(decisions.Pin("X"))
+    good = bench.session._asked.moment
+    bench.session.do(decisions.Pin("B"))
+    bench.session.undo()
+    assert bench.session._asked.take_back(bench.session.state, good)
+    assert not bench.session.can_redo
+    before = bench.moment
+    bench.restart()
+    assert bench.moment == before
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_whatever_is_taken_back_a_restart_is_not_noticed(bench, seed):
+    rng = random.Random(seed)
+    moments = [bench.session._asked.moment]
+    for number in range(80):
+        what = rng.random()
+        if what < 0.35:
+            bench.session.do(decisions.Pin(f"v{number}"))
+        elif what < 0.6:
+            bench.session.undo()
+        elif what < 0.75:
+            bench.session.redo()
+        else:
+            bench.session._asked.take_back(bench.session.state, rng.choice(moments[-6:]))
+        moments.append(bench.session._asked.moment)
+        if number % 20 == 19:
+            before = bench.moment
+            bench.restart()
+            assert bench.moment == before
+            moments = [bench.session._asked.moment]
+
+
 class SlowStudy:
     """A study whose disk does not answer until it is let go."""
 
