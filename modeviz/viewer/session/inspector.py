@@ -106,9 +106,11 @@ class Inspector:
         is_newest = self._inquiry_into(solved) is not None
         if is_newest:
             self._is_done, self._problem = True, GIVEN_UP
-        self._fail(error)
-        if is_newest:
-            self._found(False)
+        try:
+            self._fail(error)
+        finally:
+            if is_newest:
+                self._found(False)
 
     def _find_out(self, solved: Solved, inquiry: Inquiry) -> None:
         """Learns what there is to learn of an answer, as long as it is current.

@@ -113,7 +113,15 @@ class Worker(Generic[Job]):
                 self._work(job[0])
             except Exception as error:
                 if self.is_heard:
-                    self._fail(error)
+                    self._tell(error)
+
+    def _tell(self, error: Exception) -> None:
+        """Tells what went wrong; where telling does too, Python says so and the thread goes on."""
+        try:
+            self._fail(error)
+        except Exception:
+            thread = threading.current_thread()
+            threading.excepthook(threading.ExceptHookArgs((*sys.exc_info(), thread)))
 
     def _next(self) -> list[Job] | None:
         """The next job in a list, or None when there will be no more for this thread."""
@@ -148,7 +156,7 @@ class Worker(Generic[Job]):
             try:
                 self._leave(job, error, is_left)
             except Exception as mistake:
-                self._fail(mistake)
+                self._tell(mistake)
             finally:
                 if is_left:
                     self._thread.start()

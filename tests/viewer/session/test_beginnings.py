@@ -253,6 +253,20 @@ def test_what_fails_in_one_session_is_found_out_by_the_others(opened, monkeypatc
     check_only_the_first_is_spoilt(opened, IndexError)
 
 
+def test_a_session_that_cannot_tell_of_its_mistake_shows_it(opened, monkeypatch):
+    def fail(*_):
+        raise IndexError("a bug")
+
+    said = []
+    monkeypatch.setattr(threading, "excepthook", lambda what: said.append(str(what.exc_value)))
+    monkeypatch.setattr(AnswerLoop, "_rebase", fail)
+    monkeypatch.setattr(AnswerLoop, "_tell_failure", fail)
+    session, _ = opened()
+    assert session.wait_checked(SOON)
+    assert session.answer.findings.problem == GIVEN_UP
+    assert said == ["a bug"]
+
+
 def test_what_hangs_in_one_session_is_found_out_by_the_others(opened, hang, monkeypatch):
     hang(Prepared, "near")
     monkeypatch.setattr(answer_loop, "Inspector", partial(Inspector, patience=1.5))

@@ -110,3 +110,25 @@ def test_a_job_that_hangs_is_left_behind_though_telling_of_it_goes_wrong():
     finally:
         go_on.set()
         worker.close()
+
+
+def test_a_worker_goes_on_where_telling_of_a_failure_goes_wrong(monkeypatch):
+    done, said = [], []
+    monkeypatch.setattr(threading, "excepthook", lambda what: said.append(str(what.exc_value)))
+
+    def work(job):
+        if job == "bad":
+            raise ValueError("bad job")
+        done.append(job)
+
+    def fail(error):
+        raise RuntimeError(f"not told: {error}")
+
+    worker = Worker(work, fail)
+    worker.submit("bad")
+    assert worker.wait(5)
+    worker.submit("good")
+    assert worker.wait(5)
+    assert said == ["not told: bad job"]
+    assert done == ["good"]
+    worker.close()
