@@ -20,9 +20,15 @@ def now():
 
 
 @pytest.fixture
-def hang(monkeypatch):
-    """Has the first step of an inquiry hang in a thread; gives what lets it end, and its end."""
-    has_begun, may_end, sensitivity = threading.Event(), threading.Event(), inquiry.sensitivity
+def may_end():
+    """Lets what hangs end."""
+    return threading.Event()
+
+
+@pytest.fixture
+def hang(monkeypatch, may_end):
+    """Has the first step of an inquiry hang in a thread; gives threads, and the step."""
+    has_begun, sensitivity = threading.Event(), inquiry.sensitivity
 
     def hanging(*arguments):
         has_begun.set()
@@ -37,28 +43,27 @@ def hang(monkeypatch):
             assert has_begun.wait(SOON)
             return threads, step
 
-        hang.may_end = may_end
         yield hang
         may_end.set()
 
 
-def test_nobody_waits_for_the_step_of_somebody_else(hang, now):
+def test_nobody_waits_for_the_step_of_somebody_else(hang, may_end, now):
     shared = Inquiry(now)
     threads, step = hang(shared)
     threads.submit(shared.advance).result(SOON)
     assert not shared.findings.is_complete
-    hang.may_end.set()
+    may_end.set()
     step.result(SOON)
     assert shared.findings.sensitivity is not None
     assert not shared.findings.problem
 
 
-def test_an_inquiry_is_given_up_once_a_step_hangs_and_what_that_brings_is_dropped(hang, now):
+def test_an_inquiry_is_given_up_once_a_step_hangs_and_what_that_brings_is_dropped(hang, may_end, now):
     shared = Inquiry(now, patience=0.01)
     threads, step = hang(shared)
     threads.submit(shared.advance).result(SOON)
     assert shared.findings.problem == GIVEN_UP
-    hang.may_end.set()
+    may_end.set()
     step.result(SOON)
     assert shared.findings.sensitivity is None
     shared.advance()
