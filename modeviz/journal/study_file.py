@@ -173,8 +173,6 @@ class StudyFile(Records):
         self._writer.put(
             lambda c: remarks.write_note(c, _number(c, session), written),
             session or "",
-            what="note",
-            n_bytes=len(note.text),
         )
         return written.token
 
@@ -218,11 +216,11 @@ class StudyFile(Records):
         Raises:
             ModevizError: it cannot be read, or is not saved yet, so that what there is of it is old.
         """
-        found = super().restore(session)
-        if not self.is_saved(session):
+        self._wait()
+        if not self.is_saved(session):  # asked first: it may be saved once it was read
             trouble = self.trouble or "not saved yet"
             raise ModevizError(f"{self.path}: the session cannot be opened now ({trouble}); try again")
-        return found
+        return super().restore(session)
 
     def flush(self, timeout: float) -> bool:
         """Waits until all is on the disk; whether that came within `timeout` s."""
@@ -252,8 +250,12 @@ class StudyFile(Records):
 
     def _connect_after_writing(self) -> Connection:
         """A connection that sees what was asked to be written before, if it could be."""
-        self.flush(IMPATIENCE if self.trouble else PATIENCE)
+        self._wait()
         return sqlite3.connect(f"{self.path.as_uri()}?mode=ro", uri=True, isolation_level=None)
+
+    def _wait(self) -> None:
+        """Waits for what was asked to be written before, for as long as one who reads may wait."""
+        self.flush(IMPATIENCE if self.trouble else PATIENCE)
 
 
 def _tell_all(watchers: Sequence[Callable[[str], None]], trouble: str) -> None:

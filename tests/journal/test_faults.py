@@ -19,10 +19,12 @@ from journal_studies import KEY, change, opened
 from benchmarks.kill import kill_often
 from modeviz.errors import ModevizError
 from modeviz.journal import opening, ownership, schema, study_file, waiting, writer
+from modeviz.journal import sessions as stored
 from modeviz.journal.changes import Step
 from modeviz.journal.ownership import lock_path
 from modeviz.journal.records import Records
 from modeviz.journal.sessions import StoredSession
+from modeviz.report.notes import Note
 
 TESTS = Path(__file__).parents[1]
 
@@ -196,6 +198,51 @@ def test_a_session_that_is_not_saved_is_not_opened_as_it_was_before(path, monkey
     assert session
     assert session.state == "state 2"
     assert study.is_saved(KEY)
+    assert study.close()
+
+
+def test_room_that_appears_while_a_session_is_read_does_not_let_an_old_state_through(path, monkeypatch):
+    study = opened(path)
+    study.begin(KEY)
+    study.look(KEY, "old")
+    assert study.flush(5)
+    read, commit = stored.restore, writer._commit
+
+    def read_then_room(connection, session):
+        found = read(connection, session)
+        monkeypatch.setattr(writer, "_commit", commit)
+        assert study.flush(20)
+        return found
+
+    monkeypatch.setattr(stored, "restore", read_then_room)
+    monkeypatch.setattr(writer, "_commit", fails_with(OSError(28, "No space left on device")))
+    study.look(KEY, "new")
+    assert not study.flush(0.2)
+    with pytest.raises(ModevizError, match=r"cannot be opened now \(not saved"):
+        study.restore(KEY)
+    monkeypatch.setattr(writer, "_commit", commit)
+    assert study.flush(20)
+    assert study.restore(KEY).state == "new"
+    assert study.close()
+
+
+def test_a_note_is_not_lost_to_make_room_for_pictures(path, monkeypatch):
+    monkeypatch.setattr(waiting, "LARGEST", 10_000)
+    study = opened(path)
+    study.begin(KEY)
+    assert study.flush(5)
+    with monkeypatch.context() as full:
+        full.setattr(writer, "_commit", fails_with(OSError(28, "No space left on device")))
+        study.look(KEY, "first look")
+        assert not study.flush(0.2)
+        study.put_note(KEY, Note("rear mounts are too soft"))
+        for i in range(3):
+            study.put_picture(KEY, b"x" * 6000, f"picture {i}")
+        assert not study.flush(0.2)
+        assert study.trouble.endswith("lost: 2 pictures")
+    assert study.flush(20)
+    assert [note.text for note in study.notes(KEY)] == ["rear mounts are too soft"]
+    assert [line.caption for line in study.pictures(KEY)] == ["picture 2"]
     assert study.close()
 
 
