@@ -10,7 +10,6 @@ from modeviz.text.wording import sentence_case
 from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.page.widgets.html import (
     TWO_LINES,
-    HiddenButtons,
     block,
     clamped,
     heading,
@@ -22,6 +21,7 @@ from modeviz.viewer.page.widgets.html import (
     table,
     title,
 )
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import SelectGroup
 from modeviz.viewer.session.session import Session
@@ -44,7 +44,7 @@ class EnergyPanel:
         self._bodies: Mapping[str, str] = {}
         self._groups: Mapping[str, str] = {}
         self._session = session
-        self._buttons = HiddenButtons(gui, 0, self._select)
+        self._buttons = NamedButtons[str](gui, self._select)
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
@@ -52,7 +52,7 @@ class EnergyPanel:
         vehicle = solved.now.prepared.vehicle
         self._bodies = {body.name: body.label for body in vehicle.bodies}
         self._groups = {group.name: group.meaning for group in vehicle.mount_groups}
-        self._buttons.reach(len(self._groups))
+        self._buttons.keep(self._groups)
         before = solved.followed.same
         colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
         kinetic = {
@@ -67,10 +67,8 @@ class EnergyPanel:
         )
         assign(self._content, content=content)
 
-    def _select(self, i: int) -> None:
-        groups = list(self._groups)
-        if i < len(groups):  # else one was removed between the click and here
-            self._session.do(SelectGroup(groups[i]))
+    def _select(self, group: str) -> None:
+        self._session.do(SelectGroup(group))
 
     def _kinetic(self, now: Shares, base: Shares | None) -> str:
         names = sorted(_worth_listing(now, base), key=lambda name: -now[name])
@@ -86,10 +84,10 @@ class EnergyPanel:
         now, largest = solved.strain, _largest(solved.strain, base)
         rows = [
             row(
-                _cells(self._group(i, name), name, now, base, largest),
+                _cells(self._group(name), name, now, base, largest),
                 chosen=name == solved.state.group,
             )
-            for i, name in enumerate(self._groups)
+            for name in self._groups
         ]
         others = sorted(_worth_listing(now, base) - set(self._groups), key=lambda name: -now[name])
         rows += [row(_cells(self._other(n), n, now, base, largest)) for n in others]
@@ -109,8 +107,8 @@ class EnergyPanel:
         """Return the name of a mount group, or of what else loses energy."""
         return self._named(name) if name in self._groups else self._other(name)
 
-    def _group(self, i: int, name: str) -> str:
-        return self._buttons.label(i, self._named(name))
+    def _group(self, name: str) -> str:
+        return self._buttons.label(name, self._named(name))
 
     def _named(self, name: str) -> str:
         """Return a mount group's name and what it means."""

@@ -16,7 +16,6 @@ from modeviz.vehicle.connections import MOTIONS, Mount
 from modeviz.viewer.page.binding import Binding
 from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.page.widgets.html import (
-    HiddenButtons,
     block,
     heading,
     hinted,
@@ -26,6 +25,7 @@ from modeviz.viewer.page.widgets.html import (
     table,
     title,
 )
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChangeCharts, SelectGroup
 from modeviz.viewer.session.responses import Responses
@@ -47,7 +47,7 @@ class ForcesPanel:
         self._binding: Binding | None = None
         if any(not np.array_equal(mount.axes, np.eye(3)) for mount in self._mounts):
             self._binding = _axes_choice(gui, session)
-        self._buttons = HiddenButtons(gui, len(self._mounts), self._select)
+        self._buttons = NamedButtons[str](gui, self._select)
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
@@ -55,17 +55,15 @@ class ForcesPanel:
         if self._binding:
             self._binding.show()
         self._mounts = solved.now.prepared.vehicle.mounts
-        self._buttons.reach(len(self._mounts))
+        self._buttons.keep([mount.group for mount in self._mounts])
         try:
             content = [*self._over_band(solved), *self._at_cursor(solved)]
         except ModevizError as error:
             content = [span(escape(str(error)), "dim")]
         assign(self._content, content=block(*content))
 
-    def _select(self, i: int) -> None:
-        mounts = self._mounts
-        if i < len(mounts):  # else one was removed between the click and here
-            self._session.do(SelectGroup(mounts[i].group))
+    def _select(self, group: str) -> None:
+        self._session.do(SelectGroup(group))
 
     def _over_band(self, solved: Solved) -> list[str]:
         """A table of RMS under a random load, of the largest amplitudes under a harmonic one."""
@@ -111,7 +109,7 @@ class ForcesPanel:
         """A row for each mount; a click on its name selects its group."""
         rows = [
             row(
-                [self._name(i, mount), *(cells[i][m] for m in motions)],
+                [self._name(mount), *(cells[i][m] for m in motions)],
                 chosen=mount.group == solved.state.group,
             )
             for i, mount in enumerate(self._mounts)
@@ -119,8 +117,8 @@ class ForcesPanel:
         ]
         return table(("", *(MOTIONS[m] for m in motions)), rows, "forces")
 
-    def _name(self, i: int, mount: Mount) -> str:
-        return self._buttons.label(i, named(mount.name, f"{mount.name}: its group's rates"))
+    def _name(self, mount: Mount) -> str:
+        return self._buttons.label(mount.group, named(mount.name, f"{mount.name}: its group's rates"))
 
 
 def _compared(now: Floats, base: Floats) -> list[str]:

@@ -14,7 +14,6 @@ from modeviz.vehicle.connections import GROUND, Connection, Mount
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.page.widgets.html import (
-    HiddenButtons,
     block,
     heading,
     hinted,
@@ -23,6 +22,7 @@ from modeviz.viewer.page.widgets.html import (
     span,
     table,
 )
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChangeMotion, SelectGroup
 from modeviz.viewer.session.session import Session
@@ -74,7 +74,7 @@ class StaticPanel:
                 lambda drawn: session.do(ChangeMotion(kind="sag" if drawn else "mode")),
             ),
         )
-        self._buttons = HiddenButtons(gui, 0, self._select)
+        self._buttons = NamedButtons[str](gui, self._select)
         self._scale = gui.add_html("", visible=False)
         self._content = gui.add_html(block(span("Sag follows with the first answer.", "dim")))
 
@@ -84,13 +84,11 @@ class StaticPanel:
         vehicle = solved.now.prepared.vehicle
         self._labels = {body.name: body.label for body in vehicle.bodies}
         self._mounts = {mount.name: mount.group for mount in vehicle.mounts}
-        self._buttons.reach(len(self._mounts))
+        self._buttons.keep(self._mounts.values())
         assign(self._content, content=block(*self._lines(solved.static.now, solved.state)))
 
-    def _select(self, i: int) -> None:
-        groups = list(self._mounts.values())
-        if i < len(groups):  # else one was removed between the click and here
-            self._session.do(SelectGroup(groups[i]))
+    def _select(self, group: str) -> None:
+        self._session.do(SelectGroup(group))
 
     def tell_scale(self, solved: Solved, scale: float) -> None:
         """Says how many times as large as it is what is drawn stands there, if that is sag."""
@@ -129,8 +127,8 @@ class StaticPanel:
             return
         yield heading("Mounts", hinted("along their axes", ABOUT_MOUNTS))
         rows = [
-            row(self._mount(i, case.connections[name]), chosen=group == state.group)
-            for i, (name, group) in enumerate(self._mounts.items())
+            row(self._mount(group, case.connections[name]), chosen=group == state.group)
+            for name, group in self._mounts.items()
         ]
         yield table(("", "x N", "y N", "z N", "x mm", "y mm", "z mm"), rows, "statics")
         if limited := list(travels(statics, case)):
@@ -138,10 +136,10 @@ class StaticPanel:
             header = ("", "mm", "from", "to", "left mm")
             yield table(header, [row(_travel(travel)) for travel in limited], "statics")
 
-    def _mount(self, i: int, carried: Carried) -> list[str]:
+    def _mount(self, group: str, carried: Carried) -> list[str]:
         forces = [number(float(force), 0) for force in carried.force[:3]]
         deflections = [number(float(d), 2) for d in 1e3 * carried.deflection[:3]]
-        return [self._buttons.label(i, named(carried.connection.name)), *forces, *deflections]
+        return [self._buttons.label(group, named(carried.connection.name)), *forces, *deflections]
 
     def _body(self, name: str, motion: Floats, decimals: int) -> str:
         """The row of a body: millimetres with so many decimals, and degrees."""

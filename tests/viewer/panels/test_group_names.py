@@ -1,19 +1,24 @@
 """What the page and a report call a mount group."""
 
+from contextlib import closing
 from dataclasses import replace
 from datetime import date
 
 import pytest
 import viser
 from mounted_cabin import mounted_cabin
+from session_commands import Listener
 
 from modeviz.analysis.preparation import prepare
 from modeviz.analysis.results import Conditions
 from modeviz.report.comparison import RateSet, compare
 from modeviz.report.html import report
+from modeviz.viewer.page.widgets.handles import name_of
 from modeviz.viewer.page.widgets.html import HiddenButtons
 from modeviz.viewer.panels.energy import EnergyPanel
+from modeviz.viewer.panels.forces import ForcesPanel
 from modeviz.viewer.panels.mounts.folder import GroupFolder
+from modeviz.viewer.panels.statics import StaticPanel
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 
@@ -54,3 +59,25 @@ def test_a_report_names_it_once_too(vehicle):
     html = report(compare(prepare(vehicle), *sets, None), date(2026, 11, 29))
     assert "FM <small>" not in html
     assert "B <small>rear</small>" in html
+
+
+@pytest.mark.parametrize("panel", [EnergyPanel, ForcesPanel, StaticPanel])
+def test_a_click_selects_the_group_that_was_clicked_though_another_list_came_meanwhile(panel):
+    """As where an absorber before it was taken away: its place in the list is another's then."""
+    cabin = mounted_cabin()
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    shown, told = None, []
+    try:
+        for vehicle in (cabin, replace(cabin, mount_groups=cabin.mount_groups[::-1])):
+            state = first_state(vehicle, vehicle.rates, Conditions("flat", 20.0))
+            with closing(Session(vehicle, state, Listener())) as session:
+                shown = shown or panel(server.gui, session)
+                session.start()
+                shown.show(session.wait_for_answer(20))
+            told.append(shown._content.content)
+        buttons = shown._buttons._buttons
+        assert {*buttons} == {"A", "B"}
+        for button in buttons.values():
+            assert all(f'for="{name_of(button)}"' in content for content in told)
+    finally:
+        server.stop()
