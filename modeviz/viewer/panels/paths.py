@@ -16,7 +16,6 @@ from modeviz.vehicle.mount_rates import DIRECTIONS
 from modeviz.viewer.page.binding import Binding, show_all
 from modeviz.viewer.page.widgets.handles import assign
 from modeviz.viewer.page.widgets.html import (
-    HiddenButtons,
     block,
     heading,
     legend,
@@ -25,6 +24,7 @@ from modeviz.viewer.page.widgets.html import (
     span,
     table,
 )
+from modeviz.viewer.page.widgets.named_buttons import NamedButtons
 from modeviz.viewer.session.answers import Solved
 from modeviz.viewer.session.commands.looks import ChangeCharts, SelectGroup
 from modeviz.viewer.session.responses import Responses, curve_label
@@ -84,10 +84,10 @@ class PathsPanel:
                 lambda label: session.do(ChangeCharts(paths_by=BY[label])),
             ),
         )
-        self._groups: list[str] = []
         self._base: Latest[tuple[Paths, Floats]] = Latest()
         self._own = {group.name for group in vehicle.mount_groups}
-        self._buttons = HiddenButtons(gui, N_SHOWN, self._select)
+        self._buttons = NamedButtons[str](gui, self._select)
+        self._buttons.keep([group.name for group in vehicle.mount_groups])
         self._content = gui.add_html("")
 
     def show(self, solved: Solved) -> None:
@@ -106,13 +106,13 @@ class PathsPanel:
         key = solved.base, solved.state.charts, solved.state.conditions
         before = _shares_of(now, by, *self._base.get(key, lambda: _paths(solved, solved.base)))
         order = [i for i in np.argsort(-np.abs(shares)) if abs(shares[i]) >= LEAST_SHOWN][:N_SHOWN]
-        self._groups = [_group(now.paths[i], by, self._own) for i in order]
         largest = max([np.abs(shares).max(initial=0.0), np.abs(before).max(initial=0.0)]) or 1.0
         phasors = None if Responses(solved).harmonic_load is None else _acceleration(now)
         rows = []
-        for place, i in enumerate(order):
+        for i in order:
+            group = _group(now.paths[i], by, self._own)
             name = named(now.paths[i].called(by), _about(now.paths[i], by))
-            label = self._buttons.label(place, name) if self._groups[place] else name
+            label = self._buttons.label(group, name) if group else name
             cells = [
                 label,
                 _bars(float(shares[i]), float(before[i]), largest),
@@ -121,16 +121,14 @@ class PathsPanel:
             ]
             if phasors is not None:
                 cells.append(span(_polar(complex(phasors[i])), "dim"))
-            is_selected = bool(self._groups[place]) and self._groups[place] == solved.state.group
-            rows.append(row(cells, chosen=is_selected))
+            rows.append(row(cells, chosen=bool(group) and group == solved.state.group))
         colors = legend((("--mv-base", escape(solved.state.against)), ("--mv-now", "now")))
         what = f"Share of the response, {solved.state.charts.cursor_hz:.2f} Hz"
         none = span("Nothing moves this point there.", "dim")
         return [heading(what, colors), table((), rows, "energy") if rows else none]
 
-    def _select(self, place: int) -> None:
-        if place < len(self._groups) and self._groups[place]:
-            self._session.do(SelectGroup(self._groups[place]))
+    def _select(self, group: str) -> None:
+        self._session.do(SelectGroup(group))
 
 
 def _shares_of(now: Paths, by: By, other: Paths, shares: Floats) -> Floats:

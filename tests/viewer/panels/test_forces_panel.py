@@ -73,8 +73,9 @@ def test_paths_at_the_cursor_are_those_of_the_vehicle_solved_anew(app, study):
 
 def test_a_click_on_a_path_selects_its_group(app):
     show(app, load="", paths_by="mount", path_curve=ResponseCurve(0, "vertical"), group="E")
-    place = app.screen.results.paths._groups.index("F")
-    app.screen.results.paths._select(place)
+    paths = app.screen.results.paths
+    assert paths._buttons.label("F", "").removesuffix("</label>") in paths._content.content
+    paths._select("F")
     app.session.wait_for_answer(SOON)
     assert app.session.state.group == "F"
 

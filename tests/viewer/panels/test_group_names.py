@@ -1,5 +1,6 @@
 """What the page and a report call a mount group."""
 
+import re
 from contextlib import closing
 from dataclasses import replace
 from datetime import date
@@ -18,7 +19,9 @@ from modeviz.viewer.page.widgets.html import HiddenButtons
 from modeviz.viewer.panels.energy import EnergyPanel
 from modeviz.viewer.panels.forces import ForcesPanel
 from modeviz.viewer.panels.mounts.folder import GroupFolder
+from modeviz.viewer.panels.paths import PathsPanel
 from modeviz.viewer.panels.statics import StaticPanel
+from modeviz.viewer.session.commands.looks import ChangeCharts
 from modeviz.viewer.session.session import Session
 from modeviz.viewer.session.state import first_state
 
@@ -81,3 +84,24 @@ def test_a_click_selects_the_group_that_was_clicked_though_another_list_came_mea
             assert all(f'for="{name_of(button)}"' in content for content in told)
     finally:
         server.stop()
+
+
+def test_a_click_on_a_path_selects_its_group_whichever_is_first_by_then():
+    cabin, heard, firsts, buttons = mounted_cabin(), Listener(), [], set()
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    state = first_state(cabin, cabin.rates, Conditions("rough", 20.0))
+    try:
+        with closing(Session(cabin, state, heard)) as session:
+            panel = PathsPanel(server.gui, session)
+            session.start()
+            for hz in (2.0, 30.0):
+                session.do(ChangeCharts(paths_by="group", cursor_hz=hz))
+                assert session.wait(20)
+                panel.show(heard.answers[-1])
+                labels = re.findall(r'for="([^"]*)"><[^>]*>([AB])\b', panel._content.content)
+                firsts.append(labels[0][1])
+                buttons.update(labels)
+    finally:
+        server.stop()
+    assert firsts == ["A", "B"]
+    assert len(buttons) == 2
