@@ -101,6 +101,13 @@ def test_a_measured_body_moves_in_quadrature(page, app):
     assert page.get_by_text("Complex mode 2", exact=True).is_visible()
 
 
+TAKES_FILES = """(() => {
+  const carrier = new DataTransfer();
+  carrier.items.add(new File([], "none"));
+  const event = { dataTransfer: carrier, bubbles: true, cancelable: true };
+  return !document.querySelector("canvas").dispatchEvent(new DragEvent("dragover", event));
+})()"""
+
 DROP = """([names, contents]) => {
   const carrier = new DataTransfer();
   names.forEach((name, i) => {
@@ -115,6 +122,7 @@ DROP = """([names, contents]) => {
 
 def drop(page, files):
     contents = [base64.b64encode(content.encode()).decode() for content in files.values()]
+    wait_for(page, TAKES_FILES)
     assert page.evaluate(DROP, [[*files], contents]) == [True, True]  # or the browser would open them
 
 

@@ -116,7 +116,7 @@ def resonant(monkeypatch):
             raise SolveError("an undamped resonance lies on 10 Hz")
         return solve_on(drive, asked)
 
-    monkeypatch.setattr("modeviz.viewer.session.answers.solve_on", solve)
+    monkeypatch.setattr("modeviz.viewer.session.beginnings.solve_on", solve)
     return rates
 
 
