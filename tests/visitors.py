@@ -3,6 +3,7 @@
 import http.client
 import time
 from collections.abc import Callable
+from contextlib import contextmanager
 from typing import Any
 
 import msgspec.msgpack
@@ -56,6 +57,15 @@ def knock(server, origin, path="/", version=viser.__version__, **headers):
 def visit(server):
     """A websocket as a page of the server's own opens it."""
     return knock(server, own_origin(server))
+
+
+@contextmanager
+def entered(server, token="open-sesame-open"):
+    """The same of somebody who has brought the token, and whose camera is told."""
+    cookie = get(server, f"/?token={token}")[1]["Set-Cookie"].split(";")[0]
+    with knock(server, own_origin(server), Cookie=cookie) as socket:
+        socket.send(encoded(CAMERA))
+        yield socket
 
 
 def encoded(message: Any) -> bytes:

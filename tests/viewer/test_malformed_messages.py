@@ -1,13 +1,12 @@
 """A page to which thousands of messages come that no page sends."""
 
 import re
-from contextlib import contextmanager
 
 import pytest
 import viser
 from mounted_cabin import mounted_cabin
 from opened_app import SOON, opened_app
-from visitors import CAMERA, encoded, get, knock, own_origin, update, wait_until
+from visitors import entered, update, wait_until
 
 from benchmarks.malformed import malformed
 from modeviz.analysis.results import Conditions
@@ -21,15 +20,6 @@ def app():
     app = opened_app(mounted_cabin(), Conditions("flat", 20.0))
     yield app
     app.close()
-
-
-@contextmanager
-def entered(server):
-    """A page of somebody who has the link, as viser knows one."""
-    cookie = get(server, "/?token=open-sesame-open")[1]["Set-Cookie"].split(";")[0]
-    with knock(server, own_origin(server), Cookie=cookie) as socket:
-        socket.send(encoded(CAMERA))
-        yield socket
 
 
 def sliders(server):

@@ -58,7 +58,9 @@ class Binding(Generic[S]):
         self._widget, self._owner, self._read, self._write = widget, owner, read, write
         self._known, self._options = widget.value, self._choices()
         self._write_back, self._typed = write_back, typed
-        self._lock = threading.Lock()
+        self._lock = threading.Lock()  # never held while the state is changed, which may show all
+        self._n_taken = 0
+        """How many values are being taken now."""
         widget.on_update(self._changed)
 
     def _changed(self, event: viser.GuiEvent) -> None:
@@ -82,11 +84,14 @@ class Binding(Generic[S]):
         """Changes the state as the widget asks, and gives it the value that came of it."""
         with self._lock:
             asked = self._widget.value
-            try:
-                self._write(asked)
-            except ModevizError as refusal:
-                refuse(client, str(refusal), is_passing=True)
-            finally:  # also of our mistake
+            self._n_taken += 1
+        try:
+            self._write(asked)
+        except ModevizError as refusal:
+            refuse(client, str(refusal), is_passing=True)
+        finally:  # also of our mistake
+            with self._lock:
+                self._n_taken -= 1
                 self._known = self._read(self._owner.state)
                 if self._known != asked:  # else a newer value that is on its way here would be lost
                     self._widget.value = self._known
@@ -94,9 +99,12 @@ class Binding(Generic[S]):
     def show(self) -> None:
         """Puts the newest state's value on the page, if the widget has another.
 
-        What a page has just chosen, and `_take` has not seen yet, stays.
+        What a page has just chosen, and `_take` has not seen yet, stays; what it sees just now, it
+        shows.
         """
         with self._lock:
+            if self._n_taken:
+                return
             value, options = self._read(self._owner.state), self._choices()
             # of a dropdown whose options change viser itself chooses another
             shown = self._known if options == self._options else self._widget.value

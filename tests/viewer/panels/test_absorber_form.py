@@ -3,12 +3,13 @@
 import numpy as np
 from mounted_cabin import mounted_cabin
 from opened_app import SOON
+from visitors import entered, update, wait_until
 
 from modeviz.analysis.absorbers import effective_mass
 from modeviz.vehicle.absorber import Absorber
 from modeviz.vehicle.absorbers import with_absorbers
 from modeviz.vehicle.mount_rates import DIRECTIONS
-from modeviz.viewer.panels.mounts.absorber_draft import AbsorberDraft, places
+from modeviz.viewer.panels.mounts.absorber_draft import ALONG, AbsorberDraft, places
 from modeviz.viewer.session.commands.decisions import SetRate
 from modeviz.viewer.session.commands.looks import ShowMode
 
@@ -43,6 +44,24 @@ def test_it_opens_where_the_mode_shown_moves_most_and_follows_it_until_somebody_
     assert chosen == ["chassis"] * len(shown)
     form._put_at((1.0, 0.0, 0.5))
     assert {proposal_for(app, name)[0].position for name in shown} == {(1.0, 0.0, 0.5)}
+
+
+def test_what_is_typed_and_chosen_in_it_is_taken_and_the_page_goes_on(opened):
+    app = opened(mounted_cabin())
+    form = app.screen.controls.mounts._form
+    _, _, place, along, kilograms, _ = (binding._widget for binding in form._bindings)
+    with entered(app.server) as page:
+        page.send(update(place, (700.0, 0.0, 500.0)))
+        wait_until(lambda: form.state.position == (0.7, 0.0, 0.5))
+        other = next(option for option in along.options if option != along.value)
+        page.send(update(along, other))
+        wait_until(lambda: form.state.directions == ALONG[other])
+        page.send(update(kilograms, 5.0))
+        wait_until(lambda: form.state.mass == 5.0)
+        app.session.do(SetRate("A", "vertical", 4e5))
+        assert app.session.wait(SOON)
+        assert place.value == (700.0, 0.0, 500.0)
+        assert kilograms.value == 5.0
 
 
 def test_its_rates_have_no_more_digits_than_their_boxes_have_room_for(opened):
