@@ -124,6 +124,11 @@ def _check_sound(path: Path) -> bool:
         finally:
             connection.close()
     except sqlite3.Error as error:
+        if error.sqlite_errorcode == sqlite3.SQLITE_CANTOPEN:
+            raise ModevizError(
+                f"{path}: cannot be read here: what was written last lies in {path.name}-wal, which is "
+                "read only in a folder that can be written; copy both into one"
+            ) from None
         raise ModevizError(damaged(path, str(error))) from None
 
 

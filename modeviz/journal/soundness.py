@@ -16,6 +16,20 @@ def check_whole(path: Path) -> int:
         ModevizError: there is no study, or something in it is not as it was written.
     """
     check_is_study(path)
+    n_contents = check_contents(path)
+    records = Records.of_file(path)
+    records.history()
+    for session in records.sessions():
+        records.restore(session.id)
+    return n_contents
+
+
+def check_contents(path: Path) -> int:
+    """Return how many contents a study has, whose tables were checked; likewise.
+
+    Raises:
+        ModevizError: one is not as it was written.
+    """
     connection = connect_as_it_is(path)
     try:
         found = connection.execute("PRAGMA integrity_check(1)").fetchone()[0]
@@ -24,15 +38,11 @@ def check_whole(path: Path) -> int:
         numbers = connection.execute("SELECT id FROM content").fetchall()
         for (number,) in numbers:
             _check_content(connection, path, number)
+        return len(numbers)
     except sqlite3.Error as error:
         raise ModevizError(damaged(path, str(error))) from None
     finally:
         connection.close()
-    records = Records.of_file(path)
-    records.history()
-    for session in records.sessions():
-        records.restore(session.id)
-    return len(numbers)
 
 
 def _check_content(connection: sqlite3.Connection, path: Path, number: int) -> None:

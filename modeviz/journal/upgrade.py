@@ -9,19 +9,21 @@ from modeviz.journal.backup import backup
 from modeviz.journal.opening import connect_as_it_is, is_of_before, open_to_write
 from modeviz.journal.ownership import Ownership
 from modeviz.journal.schema import bring_up, version_of
+from modeviz.journal.soundness import check_contents
 
 
 def upgrade(study: Path) -> Path | None:
     """Brings a study to the tables of today, and returns a copy of how it was; None if it has them.
 
-    The process has the study and has checked it. Whatever goes wrong, it is as before or has all of
-    today's tables.
+    The process has the study. Whatever goes wrong, it is as before or has all of today's tables.
 
     Raises:
-        ModevizError: the copy cannot be made, or the study not be written.
+        ModevizError: something in it is not as it was written, the copy cannot be made, or the study
+            not be written.
     """
     if not is_of_before(study):
         return None
+    check_contents(study)
     copy = backup(study, _new_name(study))
     try:
         connection = open_to_write(study)

@@ -164,6 +164,31 @@ def test_an_earlier_study_that_is_damaged_is_refused_and_left_as_it_was(old):
     assert content(old.parent) == before
 
 
+def test_an_earlier_study_of_which_a_content_is_not_as_written_is_left_as_it_was(old):
+    connection = sqlite3.connect(old)
+    connection.execute("UPDATE content SET packed = zeroblob(9)")
+    connection.commit()
+    connection.close()
+    before = content(old.parent)
+    with pytest.raises(ModevizError, match=r"content \d+ of the study is not as it was written"):
+        opened(old)
+    assert content(old.parent)[old.name] == before[old.name]
+    assert not list(old.parent.glob("*-version-1*"))
+
+
+def test_a_study_whose_log_cannot_be_read_here_is_not_called_damaged(old, monkeypatch):
+    """As on read-only media, where a log lies beside the file and no index of it."""
+    error = sqlite3.OperationalError("unable to open database file")
+    error.sqlite_errorcode = sqlite3.SQLITE_CANTOPEN
+
+    def connect(_):
+        raise error
+
+    monkeypatch.setattr("modeviz.journal.opening.connect_as_it_is", connect)
+    with pytest.raises(ModevizError, match=r"cannot be read here: .*truck.modeviz-wal.*copy both"):
+        check_file(old)
+
+
 def test_a_study_whose_tables_have_no_version_is_refused_and_left_as_it_was(old):
     connection = sqlite3.connect(old)
     connection.execute("PRAGMA user_version = 0")
