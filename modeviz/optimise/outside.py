@@ -10,6 +10,9 @@ from modeviz.vehicle.mount_rates import RATE_FIELDS, RATE_NAMES, MountRates, Rat
 SAME = 1e-6
 """Relative: rates are read and written in other units, and are not more alike than that."""
 
+NO_RATE = 1e-200
+"""N/m in place of none: logarithms and ratios of it are numbers."""
+
 FAR = np.log(1e6)
 
 
@@ -61,7 +64,7 @@ def _moved(space: DesignSpace, every: Rates) -> list[str]:
     found = []
     for group, base in space.base.items():
         now, kept = every[group], fixed.get(group, {})
-        ratios = _ratios(now)
+        ratios = _ratios(now) if kept else {}
         found += [
             f"{group} {RATE_NAMES[field]} is {ratios[field]:.4g} of vertical, kept at {ratio:.4g}"
             for field, ratio in kept.items()
@@ -94,13 +97,13 @@ def _amount(space: DesignSpace, limit: Limit, by: float) -> str:
 
 def _log(space: DesignSpace, every: Rates, group: str, field: str) -> float:
     """ln(k/k₀) of a rate; of one that is zero a number below any limit."""
-    k = max(getattr(every[group], field), np.finfo(np.float64).tiny)
+    k = max(getattr(every[group], field), NO_RATE)
     return float(np.log(k / getattr(space.base[group], field)))
 
 
 def _ratios(rates: MountRates) -> dict[str, float]:
     """Return the ratios of the other rates to the vertical one."""
-    vertical = rates.vertical or np.finfo(np.float64).tiny
+    vertical = rates.vertical or NO_RATE
     return {field: getattr(rates, field) / vertical for field in SHEAR}
 
 

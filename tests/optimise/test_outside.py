@@ -48,6 +48,8 @@ def test_the_best_of_one_space_lies_outside_of_another():
         ({"B": MountRates(8e4, 3e4, 4e4)}, "past B rates: lower bound by 233 %"),
         ({"A": MountRates(8e5, 3e5, 4e5, 0.3)}, "A loss factor is 0.3, kept at 0.15"),
         ({"A": MountRates(8e5, 0.0, 4e5)}, "past A lateral: lower bound"),
+        ({"A": MountRates(0.0, 3e5, 4e5)}, "past A vertical: lower bound"),
+        ({"B": MountRates(0.0, 3e5, 4e5)}, "past B rates: lower bound"),
     ],
 )
 def test_what_keeps_rates_out_is_named(rates, reason):
