@@ -138,9 +138,12 @@ class LoadedPage:
                     await asyncio.sleep(0.1)
 
     async def rest(self) -> None:
-        """Waits until no new spectrum comes."""
-        begin = time.perf_counter()
-        while time.perf_counter() - max(begin, self._drawn_at) < QUIET_S:
+        """Waits until no new spectrum comes, and all is heard that the server has said by then."""
+        seen = None
+        while seen != self._drawn_at:
+            seen = self._drawn_at
+            await asyncio.sleep(QUIET_S)
+            await (await self._socket.ping())  # answered behind all that was said before
             await asyncio.sleep(0.1)
 
     async def _drag(self) -> None:
